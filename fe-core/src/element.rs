@@ -1,0 +1,195 @@
+//! The contract of an element.
+
+use std::fmt::Debug;
+
+use crate::dof::Dof;
+use crate::material::{MaterialError, Operator, PointReport, StateVar};
+use crate::mesh::NodeId;
+
+/// What holds for every element in one evaluation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EvaluationContext {
+    /// Operator asked of the laws; [`Operator::None`] asks for forces only.
+    pub operator: Operator,
+    /// Share of growth of rate-dependent history, see
+    /// [`PointContext::relaxation`](crate::material::PointContext::relaxation).
+    pub relaxation: f64,
+}
+
+impl EvaluationContext {
+    /// Inviscid evaluation with the given operator.
+    pub const fn new(operator: Operator) -> Self {
+        Self {
+            operator,
+            relaxation: 1.0,
+        }
+    }
+
+    /// Evaluation with frozen rate-dependent history: stresses of a committed state.
+    pub const fn frozen() -> Self {
+        Self {
+            operator: Operator::None,
+            relaxation: 0.0,
+        }
+    }
+}
+
+/// Where an element writes its contribution.
+///
+/// `n` is the number of element DOFs: nodes times DOFs per node, node-major.
+#[derive(Debug)]
+pub struct ElementSystem<'a> {
+    /// Internal force [N], `n` entries, zeroed by the caller.
+    pub force: &'a mut [f64],
+    /// Stiffness [N/mm], `n x n` row-major, zeroed by the caller; empty when
+    /// [`EvaluationContext::operator`] is [`Operator::None`]. A symmetric element
+    /// ([`Element::unsymmetric`] false) needs to fill the upper triangle (j >= i) only.
+    pub stiffness: &'a mut [f64],
+}
+
+/// One integration point as seen from outside, for output, gauges and failure evidence.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointSample<'a> {
+    /// Position [mm].
+    pub position: [f64; 3],
+    /// Volume the point stands for [mm3].
+    pub volume: f64,
+    /// Strain components, in the order of the law's kinematics.
+    pub strain: &'a [f64],
+    /// Stress components [MPa].
+    pub stress: &'a [f64],
+    /// Report of the law.
+    pub report: PointReport,
+    /// Names of the internal variables.
+    pub state_vars: &'a [StateVar],
+    /// Internal variables.
+    pub state: &'a [f64],
+}
+
+/// Why an element could not be built or evaluated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ElementError {
+    /// The law failed at an integration point.
+    #[error("integration point {point}: {source}")]
+    Material {
+        /// Integration point, counted from 0.
+        point: usize,
+        /// What the law said.
+        source: MaterialError,
+    },
+    /// The mapping is not invertible.
+    #[error(
+        "Jacobian determinant {determinant:.4e} mm3 at integration point {point} is not positive; \
+         check the node order or the distortion of the element"
+    )]
+    Jacobian {
+        /// Integration point, counted from 0.
+        point: usize,
+        /// Value found.
+        determinant: f64,
+    },
+    /// A bar leaves the mesh.
+    #[error(
+        "bar {bar}: the point ({x:.3}, {y:.3}, {z:.3}) mm lies in no element that may host it; \
+         move the bar inside the mesh or name the block that hosts it"
+    )]
+    NoHost {
+        /// Name of the bar.
+        bar: String,
+        /// Position of the first point without host [mm].
+        x: f64,
+        /// Position of the first point without host [mm].
+        y: f64,
+        /// Position of the first point without host [mm].
+        z: f64,
+    },
+    /// Some other impossible input.
+    #[error("{what} = {value} is outside {allowed}; {remedy}")]
+    Input {
+        /// Quantity.
+        what: String,
+        /// Value given.
+        value: f64,
+        /// Allowed range.
+        allowed: String,
+        /// What to change.
+        remedy: String,
+    },
+}
+
+impl ElementError {
+    /// Whether a shorter step may cure it.
+    pub const fn is_recoverable(&self) -> bool {
+        match self {
+            Self::Material { source, .. } => source.is_recoverable(),
+            _ => false,
+        }
+    }
+}
+
+/// A finite element: geometry and parameters only, no mutable state.
+pub trait Element: Debug + Send + Sync {
+    /// Nodes, in the order of the element's DOFs.
+    fn nodes(&self) -> &[NodeId];
+
+    /// DOFs at each node; the element vector is node-major.
+    fn dofs(&self) -> &'static [Dof];
+
+    /// Length of the element's slice in the state store.
+    fn state_len(&self) -> usize;
+
+    /// Writes the virgin state.
+    fn init_state(&self, state: &mut [f64]);
+
+    /// Internal force and, if asked, stiffness, at the element displacement `u` [mm].
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError`], naming the integration point.
+    fn evaluate(
+        &self,
+        u: &[f64],
+        committed: &[f64],
+        trial: &mut [f64],
+        ctx: &EvaluationContext,
+        out: ElementSystem<'_>,
+    ) -> Result<(), ElementError>;
+
+    /// Whether the stiffness for [`Operator::Tangent`] can be unsymmetric.
+    fn unsymmetric(&self) -> bool {
+        false
+    }
+
+    /// See [`Material::latch`](crate::material::Material::latch), for every integration point.
+    fn latch(&self, _trial: &[f64], _base: &mut [f64]) {}
+
+    /// Free energy [N mm] of the element, if its law has one.
+    fn free_energy(&self, _u: &[f64], _state: &[f64]) -> Option<f64> {
+        None
+    }
+
+    /// Calls `visit` for every integration point with the stresses of a committed state.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError`], naming the integration point.
+    fn sample(
+        &self,
+        _u: &[f64],
+        _state: &[f64],
+        _visit: &mut dyn FnMut(PointSample<'_>),
+    ) -> Result<(), ElementError> {
+        Ok(())
+    }
+
+    /// Line segments to draw [mm], each with the axial stress [MPa] at `u` and `state`: bars.
+    fn segments(
+        &self,
+        _u: &[f64],
+        _state: &[f64],
+        _visit: &mut dyn FnMut([[f64; 3]; 2], f64),
+    ) -> Result<(), ElementError> {
+        Ok(())
+    }
+}

@@ -1,0 +1,220 @@
+//! The contract of a constitutive law.
+
+use std::fmt::Debug;
+
+use crate::kinematics::Kinematics;
+
+/// One internal variable of a law, as stored per integration point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StateVar {
+    /// Name, as written to output files.
+    pub name: &'static str,
+    /// Unit, `"-"` if none.
+    pub unit: &'static str,
+    /// Number of components.
+    pub len: usize,
+}
+
+impl StateVar {
+    /// A scalar internal variable.
+    pub const fn scalar(name: &'static str, unit: &'static str) -> Self {
+        Self { name, unit, len: 1 }
+    }
+
+    /// An internal variable of `len` components.
+    pub const fn vector(name: &'static str, unit: &'static str, len: usize) -> Self {
+        Self { name, unit, len }
+    }
+}
+
+/// Which linearised operator a law is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Operator {
+    /// Stress only; the tangent of the response is unspecified.
+    None,
+    /// The consistent algorithmic tangent, possibly indefinite or unsymmetric.
+    #[default]
+    Tangent,
+    /// A symmetric positive-definite secant operator.
+    Secant,
+}
+
+/// What an integration point knows beside its strain and its history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointContext {
+    /// Crack-band width h [mm]: the length over which a crack is smeared at this point.
+    pub band_width: f64,
+    /// Operator asked for.
+    pub operator: Operator,
+    /// Share a in [0, 1] of the growth of rate-dependent history variables admitted in this step:
+    /// a = dt/(tau + dt) for a viscosity time tau. 1 is inviscid, 0 freezes the history.
+    pub relaxation: f64,
+}
+
+impl PointContext {
+    /// An inviscid point with the given crack-band width [mm], asking for the consistent tangent.
+    pub const fn new(band_width: f64) -> Self {
+        Self {
+            band_width,
+            operator: Operator::Tangent,
+            relaxation: 1.0,
+        }
+    }
+
+    /// The same point asking for another operator.
+    #[must_use]
+    pub const fn with_operator(self, operator: Operator) -> Self {
+        Self { operator, ..self }
+    }
+}
+
+/// Answer of a law at one integration point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Response<K: Kinematics> {
+    /// Stress (or traction) [MPa].
+    pub stress: K::Vector,
+    /// The operator that [`PointContext::operator`] asked for.
+    pub tangent: K::Tangent,
+}
+
+/// What a law reports about a point for pictures and events; zero where it does not apply.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PointReport {
+    /// Largest crack strain normal to a crack plane [-].
+    pub crack_strain: f64,
+    /// Unit normal of that crack, zero without a crack.
+    pub crack_normal: [f64; 3],
+    /// Plastic strain, Voigt [-]; a uniaxial law uses the first component.
+    pub plastic_strain: [f64; 6],
+    /// Share of the compressive capacity that crushing has consumed: 0 before the peak of the
+    /// uniaxial curve, 1 at its residual stress.
+    pub crushing: f64,
+    /// Utilisation: stress over strength (lamina rupture) [-].
+    pub utilisation: f64,
+}
+
+/// Why a law could not answer.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MaterialError {
+    /// A parameter is impossible.
+    #[error("{law}: {parameter} = {value} {unit} is outside {allowed}; {remedy}")]
+    Parameter {
+        /// The law.
+        law: &'static str,
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// Value given.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+        /// Allowed range, in words.
+        allowed: String,
+        /// What to change.
+        remedy: String,
+    },
+    /// The element is too large for the softening branch: the stress would snap back.
+    #[error(
+        "{law}: crack-band width {band_width:.4} mm exceeds the largest allowed {limit:.4} mm \
+         ({reason}); refine the mesh or raise the fracture energy"
+    )]
+    BandTooWide {
+        /// The law.
+        law: &'static str,
+        /// Width of the point [mm].
+        band_width: f64,
+        /// Largest width allowed [mm].
+        limit: f64,
+        /// Which branch is violated.
+        reason: &'static str,
+    },
+    /// A return mapping did not converge.
+    #[error(
+        "{law}: the stress return did not converge: residual {residual:.3e} after {iterations} iterations"
+    )]
+    Return {
+        /// The law.
+        law: &'static str,
+        /// Final residual, relative to the strength.
+        residual: f64,
+        /// Iterations spent.
+        iterations: usize,
+    },
+    /// The strain is not a number.
+    #[error("{law}: strain component {component} is not finite")]
+    NotFinite {
+        /// The law.
+        law: &'static str,
+        /// Offending component.
+        component: usize,
+    },
+}
+
+impl MaterialError {
+    /// Whether a shorter step may cure it.
+    pub const fn is_recoverable(&self) -> bool {
+        matches!(self, Self::Return { .. } | Self::NotFinite { .. })
+    }
+}
+
+/// A constitutive law: a pure function from strain and committed history to stress and new history.
+///
+/// # Contract
+///
+/// - `update` reads `committed`, writes **all** of `trial`, and touches nothing else; called twice
+///   with the same input it gives the same output.
+/// - At the same strain, from the state it has just written, it gives the same stress again.
+/// - `Operator::Tangent` is the derivative of the stress this very update returns;
+///   `Operator::Secant` is symmetric positive definite.
+///
+/// [`crate::testing::check_material`] checks all of it.
+pub trait Material<K: Kinematics>: Debug + Send + Sync {
+    /// Name of the law, for messages and output.
+    fn name(&self) -> &'static str;
+
+    /// Internal variables, in the order of the state slice.
+    fn state_vars(&self) -> &[StateVar];
+
+    /// Writes the virgin state.
+    fn init_state(&self, state: &mut [f64]) {
+        state.fill(0.0);
+    }
+
+    /// Stress and operator at a total strain, from the committed history.
+    ///
+    /// # Errors
+    ///
+    /// [`MaterialError`] when the law cannot answer; see [`MaterialError::is_recoverable`].
+    fn update(
+        &self,
+        strain: &K::Vector,
+        committed: &[f64],
+        trial: &mut [f64],
+        ctx: &PointContext,
+    ) -> Result<Response<K>, MaterialError>;
+
+    /// Whether the consistent tangent can be unsymmetric.
+    fn unsymmetric_tangent(&self) -> bool {
+        false
+    }
+
+    /// Copies from `trial` into `base` what must not change any more within the step, once it has
+    /// happened: the axes of a new crack. Default: nothing.
+    fn latch(&self, _trial: &[f64], _base: &mut [f64]) {}
+
+    /// Free energy density psi [MPa = N mm/mm3] at a strain and state, if the law promises
+    /// non-negative dissipation: sigma_(n+1) : d_eps - d_psi >= 0 for every step.
+    fn free_energy(&self, _strain: &K::Vector, _state: &[f64], _ctx: &PointContext) -> Option<f64> {
+        None
+    }
+
+    /// What the point shows: crack strain, plastic strain, utilisation.
+    fn report(&self, _strain: &K::Vector, _state: &[f64]) -> PointReport {
+        PointReport::default()
+    }
+
+    /// Length of the state slice.
+    fn state_len(&self) -> usize {
+        self.state_vars().iter().map(|v| v.len).sum()
+    }
+}

@@ -1,0 +1,2 @@
+//! rc-beams
+fn main() {}
