@@ -184,6 +184,10 @@ pub trait Element: Debug + Send + Sync {
     }
 
     /// Line segments to draw [mm], each with the axial stress [MPa] at `u` and `state`: bars.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError`], naming the integration point.
     fn segments(
         &self,
         _u: &[f64],

@@ -8,10 +8,14 @@
 //! - Node order of the VTK quadratic hexahedron and quadrilateral, see [`mesh::CellKind`].
 //! - `f = internal force - external force` vanishes in equilibrium.
 
+pub mod assembly;
 pub mod dof;
 pub mod element;
+pub mod grid;
 pub mod kinematics;
 pub mod material;
 pub mod mesh;
+pub mod model;
 pub mod sparsity;
+pub mod state;
 pub mod voigt;

@@ -134,7 +134,7 @@ impl Mesh {
             return Err(MeshError::DuplicateName(name.into()));
         }
         let per_cell = kind.nodes();
-        if connectivity.len() % per_cell != 0 {
+        if !connectivity.len().is_multiple_of(per_cell) {
             return Err(MeshError::RaggedConnectivity {
                 block: name.into(),
                 given: connectivity.len(),

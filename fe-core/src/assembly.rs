@@ -1,0 +1,333 @@
+//! Assembly on a fixed pattern, parallel over elements, bit-identical for any number of threads.
+
+use rayon::prelude::*;
+
+use crate::element::{ElementError, ElementSystem, EvaluationContext};
+use crate::material::Operator;
+use crate::model::{Conditions, Model, ModelError};
+use crate::sparsity::{MatrixValues, Sparsity};
+use crate::state::StateStore;
+
+/// Marks a constrained DOF in equation lists and a dropped entry in the scatter map.
+const NONE: u32 = u32::MAX;
+
+/// Elements evaluated together before their contributions are added in order; bounds the memory.
+const BATCH: usize = 128;
+
+/// Equation numbers, sparsity pattern and scatter map of a model under given constraints.
+///
+/// Elements are evaluated in parallel into buffers of their own and then added one after the other
+/// in element order, so the result does not depend on the number of threads.
+#[derive(Debug)]
+pub struct Assembler {
+    equation: Vec<u32>,
+    free: Vec<u32>,
+    element_dofs: Vec<Vec<u32>>,
+    pattern: Sparsity,
+    /// For each element, the positions in the value array of the upper triangle by rows.
+    scatter: Vec<Vec<u32>>,
+    rate: Vec<f64>,
+    unsymmetric: bool,
+    slots: Vec<Slot>,
+}
+
+/// Buffers of one element.
+#[derive(Debug, Clone, Default)]
+struct Slot {
+    u: Vec<f64>,
+    force: Vec<f64>,
+    stiffness: Vec<f64>,
+}
+
+/// Result of one evaluation of a model.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Assembled {
+    /// Internal force [N] on all DOFs.
+    pub internal: Vec<f64>,
+    /// Stiffness [N/mm] of the free equations.
+    pub matrix: MatrixValues,
+    /// K_fc p: force on the free equations per unit rate of the prescribed pattern.
+    pub coupling: Vec<f64>,
+}
+
+impl Assembler {
+    /// Builds the pattern and the scatter map once.
+    pub fn new(model: &Model, conditions: &Conditions) -> Self {
+        let n = model.dofs().len();
+        let mut equation = vec![NONE; n];
+        let mut free = Vec::with_capacity(n);
+        let mut rate = vec![0.0; n];
+        for d in 0..n {
+            if let Some(&r) = conditions.prescribed().get(&d) {
+                rate[d] = r;
+            } else {
+                equation[d] = free.len() as u32;
+                free.push(d as u32);
+            }
+        }
+        let element_dofs: Vec<Vec<u32>> = model
+            .elements()
+            .iter()
+            .map(|e| model.dofs().element_dofs(e.as_ref()))
+            .collect();
+        let equations: Vec<Vec<u32>> = element_dofs
+            .iter()
+            .map(|dofs| dofs.iter().map(|&d| equation[d as usize]).collect())
+            .collect();
+        let pattern = Sparsity::from_groups(free.len(), equations.iter().map(Vec::as_slice));
+        let scatter = equations
+            .par_iter()
+            .map(|eq| scatter_map(&pattern, eq))
+            .collect();
+        let unsymmetric = model.elements().iter().any(|e| e.unsymmetric());
+        let slots = vec![Slot::default(); BATCH.min(model.elements().len())];
+        Self {
+            equation,
+            free,
+            element_dofs,
+            pattern,
+            scatter,
+            rate,
+            unsymmetric,
+            slots,
+        }
+    }
+
+    /// Pattern of the free equations.
+    pub const fn pattern(&self) -> &Sparsity {
+        &self.pattern
+    }
+
+    /// DOF index of each free equation.
+    pub fn free(&self) -> &[u32] {
+        &self.free
+    }
+
+    /// Rate of the prescribed pattern on every DOF, zero on free ones.
+    pub fn rate(&self) -> &[f64] {
+        &self.rate
+    }
+
+    /// Whether a DOF is constrained.
+    pub fn is_constrained(&self, dof: usize) -> bool {
+        self.equation[dof] == NONE
+    }
+
+    /// Whether the consistent tangent is assembled as unsymmetric.
+    pub const fn is_unsymmetric(&self) -> bool {
+        self.unsymmetric
+    }
+
+    /// Internal force and, unless `ctx` asks for forces only, stiffness at displacement `u`.
+    ///
+    /// Reads the base state, writes the trial state.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError::Element`] of the first element in order that failed.
+    pub fn evaluate(
+        &mut self,
+        model: &Model,
+        u: &[f64],
+        state: &mut StateStore,
+        ctx: &EvaluationContext,
+        out: &mut Assembled,
+    ) -> Result<(), ModelError> {
+        let with_matrix = ctx.operator != Operator::None;
+        let unsymmetric = self.unsymmetric && ctx.operator == Operator::Tangent;
+        out.internal.clear();
+        out.internal.resize(self.equation.len(), 0.0);
+        if with_matrix {
+            let nnz = self.pattern.nnz();
+            reset(&mut out.matrix.lower, nnz);
+            reset(&mut out.matrix.upper, if unsymmetric { nnz } else { 0 });
+            reset(&mut out.coupling, self.free.len());
+        }
+        let (offsets, base, trial) = state.split();
+        let mut rest = trial;
+        for first in (0..model.elements().len()).step_by(BATCH) {
+            let batch = first..(first + BATCH).min(model.elements().len());
+            let mut jobs: Vec<Job<'_>> = Vec::with_capacity(batch.len());
+            for (slot, e) in self.slots.iter_mut().zip(batch.clone()) {
+                let (own, tail) = rest.split_at_mut(offsets[e + 1] - offsets[e]);
+                rest = tail;
+                jobs.push(Job {
+                    element: e,
+                    slot,
+                    trial: own,
+                });
+            }
+            let dofs = &self.element_dofs;
+            let results: Vec<Result<(), ElementError>> = jobs
+                .par_iter_mut()
+                .map(|job| {
+                    let committed = &base[offsets[job.element]..offsets[job.element + 1]];
+                    job.run(model, &dofs[job.element], u, committed, ctx, unsymmetric)
+                })
+                .collect();
+            for (result, e) in results.into_iter().zip(batch.clone()) {
+                result.map_err(|source| model.locate(e, source))?;
+            }
+            for (k, e) in batch.enumerate() {
+                self.add(e, k, with_matrix, unsymmetric, out);
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the contribution of element `e`, held in slot `k`.
+    fn add(&self, e: usize, k: usize, with_matrix: bool, unsymmetric: bool, out: &mut Assembled) {
+        let dofs = &self.element_dofs[e];
+        let slot = &self.slots[k];
+        for (&d, f) in dofs.iter().zip(&slot.force) {
+            out.internal[d as usize] += f;
+        }
+        if !with_matrix {
+            return;
+        }
+        let n = dofs.len();
+        let mut map = self.scatter[e].iter();
+        for i in 0..n {
+            let row = &slot.stiffness[i * n..(i + 1) * n];
+            for (value, &position) in row[i..].iter().zip(&mut map) {
+                if position != NONE {
+                    // Entry (i, j) of the element is the lower entry if equation i >= equation j;
+                    // for symmetric values the two are the same number.
+                    out.matrix.lower[position as usize] += value;
+                }
+            }
+        }
+        if unsymmetric {
+            self.split_unsymmetric(e, slot, out);
+        }
+        for (j, &dj) in dofs.iter().enumerate() {
+            let rate = self.rate[dj as usize];
+            if rate == 0.0 {
+                continue;
+            }
+            for (i, &di) in dofs.iter().enumerate() {
+                let row = self.equation[di as usize];
+                if row != NONE {
+                    let (a, b) = if unsymmetric || i <= j {
+                        (i, j)
+                    } else {
+                        (j, i)
+                    };
+                    out.coupling[row as usize] += slot.stiffness[a * n + b] * rate;
+                }
+            }
+        }
+    }
+
+    /// Corrects `lower`, which has received the upper triangle of the element, for an unsymmetric
+    /// element matrix, and fills `upper`.
+    fn split_unsymmetric(&self, e: usize, slot: &Slot, out: &mut Assembled) {
+        let dofs = &self.element_dofs[e];
+        let n = dofs.len();
+        let mut map = self.scatter[e].iter();
+        for i in 0..n {
+            for j in i..n {
+                let Some(&position) = map.next() else { return };
+                if position == NONE {
+                    continue;
+                }
+                let (ij, ji) = (slot.stiffness[i * n + j], slot.stiffness[j * n + i]);
+                let (row, col) = (
+                    self.equation[dofs[i] as usize],
+                    self.equation[dofs[j] as usize],
+                );
+                let p = position as usize;
+                if row < col {
+                    // (i, j) lies above the diagonal of the system.
+                    out.matrix.lower[p] += ji - ij;
+                    out.matrix.upper[p] += ij;
+                } else {
+                    out.matrix.upper[p] += ji;
+                }
+            }
+        }
+    }
+}
+
+/// One element of a batch.
+struct Job<'a> {
+    element: usize,
+    slot: &'a mut Slot,
+    trial: &'a mut [f64],
+}
+
+impl Job<'_> {
+    fn run(
+        &mut self,
+        model: &Model,
+        dofs: &[u32],
+        u: &[f64],
+        committed: &[f64],
+        ctx: &EvaluationContext,
+        mirrored: bool,
+    ) -> Result<(), ElementError> {
+        let with_matrix = ctx.operator != Operator::None;
+        let Slot {
+            u: local,
+            force,
+            stiffness,
+        } = &mut *self.slot;
+        local.clear();
+        local.extend(dofs.iter().map(|&d| u[d as usize]));
+        reset(force, dofs.len());
+        if with_matrix {
+            reset(stiffness, dofs.len() * dofs.len());
+        }
+        let matrix = if with_matrix {
+            &mut stiffness[..]
+        } else {
+            &mut []
+        };
+        let out = ElementSystem {
+            force,
+            stiffness: matrix,
+        };
+        let element = &model.elements()[self.element];
+        element.evaluate(local, committed, self.trial, ctx, out)?;
+        if mirrored && !element.unsymmetric() {
+            mirror(stiffness, dofs.len());
+        }
+        Ok(())
+    }
+}
+
+/// Copies the upper triangle to the lower one.
+fn mirror(a: &mut [f64], n: usize) {
+    for i in 0..n {
+        for j in i + 1..n {
+            a[j * n + i] = a[i * n + j];
+        }
+    }
+}
+
+/// Sets a buffer to `n` zeros.
+fn reset(buffer: &mut Vec<f64>, n: usize) {
+    buffer.clear();
+    buffer.resize(n, 0.0);
+}
+
+/// Position in the value array of each entry of the upper triangle of an element, by rows.
+fn scatter_map(pattern: &Sparsity, equations: &[u32]) -> Vec<u32> {
+    let n = equations.len();
+    let mut map = Vec::with_capacity(n * (n + 1) / 2);
+    for i in 0..n {
+        for j in i..n {
+            let (a, b) = (
+                equations[i].max(equations[j]),
+                equations[i].min(equations[j]),
+            );
+            let position = if a == NONE {
+                None
+            } else {
+                pattern.position(a as usize, b as usize)
+            };
+            map.push(position.map_or(NONE, |p| p as u32));
+        }
+    }
+    map
+}

@@ -1,0 +1,107 @@
+//! Structured hex20 boxes that share their nodes where they touch.
+
+use std::collections::HashMap;
+
+use crate::mesh::{CellKind, Mesh, MeshError, NodeId};
+
+/// Nodes closer than this [mm] are one.
+const MERGE: f64 = 1e-6;
+
+/// Builds a mesh of hex20 boxes from grid lines; boxes whose lines coincide on a common face share the
+/// nodes of that face.
+///
+/// ```
+/// use fe_core::grid::GridBuilder;
+///
+/// let mut grid = GridBuilder::new();
+/// grid.add_box("beam", &[0.0, 50.0, 100.0], &[0.0, 30.0], &[0.0, 20.0]);
+/// grid.add_box("plate", &[50.0, 100.0], &[30.0, 35.0], &[0.0, 20.0]);
+/// let mesh = grid.finish()?;
+/// assert_eq!(mesh.nodes().len(), 32 + 12);
+/// # Ok::<(), fe_core::mesh::MeshError>(())
+/// ```
+#[derive(Debug, Default)]
+pub struct GridBuilder {
+    nodes: Vec<[f64; 3]>,
+    at: HashMap<[i64; 3], NodeId>,
+    blocks: Vec<(String, Vec<NodeId>)>,
+}
+
+/// Offsets of the 20 nodes of a cell in half steps, VTK order.
+const HALF_STEPS: [[usize; 3]; 20] = [
+    [0, 0, 0],
+    [2, 0, 0],
+    [2, 2, 0],
+    [0, 2, 0],
+    [0, 0, 2],
+    [2, 0, 2],
+    [2, 2, 2],
+    [0, 2, 2],
+    [1, 0, 0],
+    [2, 1, 0],
+    [1, 2, 0],
+    [0, 1, 0],
+    [1, 0, 2],
+    [2, 1, 2],
+    [1, 2, 2],
+    [0, 1, 2],
+    [0, 0, 1],
+    [2, 0, 1],
+    [2, 2, 1],
+    [0, 2, 1],
+];
+
+impl GridBuilder {
+    /// An empty grid.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds one cell between each pair of neighbouring lines [mm, ascending]; boxes of the same name
+    /// form one block.
+    pub fn add_box(&mut self, block: &str, x: &[f64], y: &[f64], z: &[f64]) {
+        let lines = [x, y, z];
+        let mut cells = Vec::new();
+        for k in 0..z.len().saturating_sub(1) {
+            for j in 0..y.len().saturating_sub(1) {
+                for i in 0..x.len().saturating_sub(1) {
+                    let first = [i, j, k];
+                    for half in HALF_STEPS {
+                        let position = std::array::from_fn(|a| {
+                            let (low, high) = (lines[a][first[a]], lines[a][first[a] + 1]);
+                            low + 0.5 * half[a] as f64 * (high - low)
+                        });
+                        cells.push(self.node(position));
+                    }
+                }
+            }
+        }
+        match self.blocks.iter_mut().find(|(name, _)| name == block) {
+            Some((_, own)) => own.extend(cells),
+            None => self.blocks.push((block.into(), cells)),
+        }
+    }
+
+    fn node(&mut self, position: [f64; 3]) -> NodeId {
+        let key = position.map(|c| (c / MERGE).round() as i64);
+        let next = self.nodes.len();
+        let id = *self.at.entry(key).or_insert(next);
+        if id == next {
+            self.nodes.push(position);
+        }
+        id
+    }
+
+    /// The mesh.
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError::NotFinite`] for a line that is not a number.
+    pub fn finish(self) -> Result<Mesh, MeshError> {
+        let mut mesh = Mesh::new(self.nodes)?;
+        for (name, cells) in self.blocks {
+            mesh.add_block(&name, CellKind::Hex20, cells)?;
+        }
+        Ok(mesh)
+    }
+}

@@ -1,0 +1,223 @@
+//! A model: mesh, elements, equation numbers; and the conditions of one load stage.
+
+use std::collections::BTreeMap;
+
+use crate::dof::{Dof, DofMap};
+use crate::element::{Element, ElementError};
+use crate::mesh::{Mesh, NodeId};
+
+/// What can go wrong with a model as a whole.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ModelError {
+    /// An element failed.
+    #[error("element {element} (first node {node} at {position:?} mm): {source}")]
+    Element {
+        /// Index of the element.
+        element: usize,
+        /// Its first node.
+        node: NodeId,
+        /// Position of that node [mm].
+        position: [f64; 3],
+        /// What the element said.
+        source: Box<ElementError>,
+    },
+    /// A condition names a DOF that no element uses.
+    #[error(
+        "{dof} of node {node} at {position:?} mm is prescribed or loaded, but no element uses it"
+    )]
+    UnusedDof {
+        /// Node.
+        node: NodeId,
+        /// DOF.
+        dof: Dof,
+        /// Position of the node [mm].
+        position: [f64; 3],
+    },
+    /// A condition names a node that does not exist.
+    #[error("node {node} does not exist; the mesh has {nodes} nodes")]
+    NoSuchNode {
+        /// Node asked for.
+        node: NodeId,
+        /// Nodes there are.
+        nodes: usize,
+    },
+}
+
+impl ModelError {
+    /// Whether a shorter step may cure it.
+    pub const fn is_recoverable(&self) -> bool {
+        match self {
+            Self::Element { source, .. } => source.is_recoverable(),
+            _ => false,
+        }
+    }
+}
+
+/// Mesh, elements and the numbering of their DOFs.
+#[derive(Debug)]
+pub struct Model {
+    mesh: Mesh,
+    elements: Vec<Box<dyn Element>>,
+    dofs: DofMap,
+}
+
+impl Model {
+    /// Numbers the DOFs of the elements.
+    pub fn new(mesh: Mesh, elements: Vec<Box<dyn Element>>) -> Self {
+        let dofs = DofMap::new(&mesh, &elements);
+        Self {
+            mesh,
+            elements,
+            dofs,
+        }
+    }
+
+    /// The mesh.
+    pub const fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// The elements.
+    pub fn elements(&self) -> &[Box<dyn Element>] {
+        &self.elements
+    }
+
+    /// The numbering.
+    pub const fn dofs(&self) -> &DofMap {
+        &self.dofs
+    }
+
+    /// Index of a DOF.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError::NoSuchNode`] or [`ModelError::UnusedDof`].
+    pub fn dof(&self, node: NodeId, dof: Dof) -> Result<usize, ModelError> {
+        let nodes = self.mesh.nodes();
+        let position = *nodes.get(node).ok_or(ModelError::NoSuchNode {
+            node,
+            nodes: nodes.len(),
+        })?;
+        self.dofs.index(node, dof).ok_or(ModelError::UnusedDof {
+            node,
+            dof,
+            position,
+        })
+    }
+
+    /// Displacements of an element, gathered from the vector of all DOFs.
+    pub fn gather(&self, element: usize, u: &[f64]) -> Vec<f64> {
+        let dofs = self.dofs.element_dofs(self.elements[element].as_ref());
+        dofs.iter().map(|&d| u[d as usize]).collect()
+    }
+
+    /// Wraps an element's error with its place.
+    pub fn locate(&self, element: usize, source: ElementError) -> ModelError {
+        let node = self.elements[element].nodes()[0];
+        ModelError::Element {
+            element,
+            node,
+            position: self.mesh.nodes()[node],
+            source: Box::new(source),
+        }
+    }
+}
+
+/// Prescribed displacements and external forces of one load stage, driven by a load factor lambda:
+///
+/// u_c = u_c(start) + lambda p,  f = f_dead + lambda f_ref
+///
+/// with p the displacement pattern on the constrained DOFs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conditions {
+    prescribed: BTreeMap<usize, f64>,
+    dead: Vec<f64>,
+    reference: Vec<f64>,
+}
+
+impl Conditions {
+    /// No constraint, no load.
+    pub fn new(model: &Model) -> Self {
+        let zero = vec![0.0; model.dofs().len()];
+        Self {
+            prescribed: BTreeMap::new(),
+            dead: zero.clone(),
+            reference: zero,
+        }
+    }
+
+    /// Holds a DOF where it is: a support or a symmetry plane.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`] for a node or DOF that is not there.
+    pub fn fix(&mut self, model: &Model, node: NodeId, dof: Dof) -> Result<(), ModelError> {
+        self.prescribe(model, node, dof, 0.0)
+    }
+
+    /// Moves a DOF by `rate` [mm] per unit of the load factor.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`] for a node or DOF that is not there.
+    pub fn prescribe(
+        &mut self,
+        model: &Model,
+        node: NodeId,
+        dof: Dof,
+        rate: f64,
+    ) -> Result<(), ModelError> {
+        self.prescribed.insert(model.dof(node, dof)?, rate);
+        Ok(())
+    }
+
+    /// Adds a force [N] that acts in full throughout the stage.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`] for a node or DOF that is not there.
+    pub fn add_dead(
+        &mut self,
+        model: &Model,
+        node: NodeId,
+        dof: Dof,
+        force: f64,
+    ) -> Result<(), ModelError> {
+        self.dead[model.dof(node, dof)?] += force;
+        Ok(())
+    }
+
+    /// Adds a force [N] per unit of the load factor.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`] for a node or DOF that is not there.
+    pub fn add_reference(
+        &mut self,
+        model: &Model,
+        node: NodeId,
+        dof: Dof,
+        force: f64,
+    ) -> Result<(), ModelError> {
+        self.reference[model.dof(node, dof)?] += force;
+        Ok(())
+    }
+
+    /// Constrained DOFs and their rates.
+    pub const fn prescribed(&self) -> &BTreeMap<usize, f64> {
+        &self.prescribed
+    }
+
+    /// External force [N] on all DOFs at a load factor.
+    pub fn external(&self, lambda: f64, out: &mut [f64]) {
+        for (o, (d, r)) in out.iter_mut().zip(self.dead.iter().zip(&self.reference)) {
+            *o = d + lambda * r;
+        }
+    }
+
+    /// Force per unit of the load factor, all DOFs.
+    pub fn reference(&self) -> &[f64] {
+        &self.reference
+    }
+}

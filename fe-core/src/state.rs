@@ -1,0 +1,93 @@
+//! Committed, base and trial history of every element.
+
+use std::ops::Range;
+
+use crate::element::Element;
+
+/// Internal variables of all elements in flat arrays.
+///
+/// Laws read `base` and write `trial`. `base` equals `committed` at the start of a step; during the
+/// step it takes up only what has been latched (the axes of new cracks). Only [`Self::commit`] and
+/// [`Self::roll_back`] change `committed` and `base` wholesale.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StateStore {
+    offsets: Vec<usize>,
+    committed: Vec<f64>,
+    base: Vec<f64>,
+    trial: Vec<f64>,
+}
+
+impl StateStore {
+    /// Virgin state of `elements`.
+    pub fn new(elements: &[Box<dyn Element>]) -> Self {
+        let mut offsets = vec![0];
+        for e in elements {
+            offsets.push(offsets[offsets.len() - 1] + e.state_len());
+        }
+        let mut committed = vec![0.0; offsets[elements.len()]];
+        for (e, w) in elements.iter().zip(offsets.windows(2)) {
+            e.init_state(&mut committed[w[0]..w[1]]);
+        }
+        Self {
+            offsets,
+            base: committed.clone(),
+            trial: committed.clone(),
+            committed,
+        }
+    }
+
+    /// Where an element's variables lie.
+    pub fn range(&self, element: usize) -> Range<usize> {
+        self.offsets[element]..self.offsets[element + 1]
+    }
+
+    /// State at the end of the last accepted step.
+    pub fn committed(&self, element: usize) -> &[f64] {
+        &self.committed[self.range(element)]
+    }
+
+    /// All committed variables, for checkpoints.
+    pub fn all_committed(&self) -> &[f64] {
+        &self.committed
+    }
+
+    /// State of the last evaluation.
+    pub fn trial(&self, element: usize) -> &[f64] {
+        &self.trial[self.range(element)]
+    }
+
+    /// Base and trial arrays with the element offsets, for one evaluation.
+    pub(crate) fn split(&mut self) -> (&[usize], &[f64], &mut [f64]) {
+        (&self.offsets, &self.base, &mut self.trial)
+    }
+
+    /// Lets every element latch what must not change any more within the step.
+    pub fn latch(&mut self, elements: &[Box<dyn Element>]) {
+        for (e, w) in elements.iter().zip(self.offsets.windows(2)) {
+            e.latch(&self.trial[w[0]..w[1]], &mut self.base[w[0]..w[1]]);
+        }
+    }
+
+    /// A copy of all trial variables, to be put back with [`Self::set_trial`].
+    pub fn copy_trial(&self) -> Vec<f64> {
+        self.trial.clone()
+    }
+
+    /// Puts back a copy made by [`Self::copy_trial`].
+    pub fn set_trial(&mut self, trial: Vec<f64>) {
+        debug_assert_eq!(trial.len(), self.trial.len());
+        self.trial = trial;
+    }
+
+    /// Accepts the trial state.
+    pub fn commit(&mut self) {
+        self.committed.copy_from_slice(&self.trial);
+        self.base.copy_from_slice(&self.trial);
+    }
+
+    /// Returns to the committed state.
+    pub fn roll_back(&mut self) {
+        self.base.copy_from_slice(&self.committed);
+        self.trial.copy_from_slice(&self.committed);
+    }
+}
