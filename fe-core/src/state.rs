@@ -68,15 +68,10 @@ impl StateStore {
         }
     }
 
-    /// A copy of all trial variables, to be put back with [`Self::set_trial`].
-    pub fn copy_trial(&self) -> Vec<f64> {
-        self.trial.clone()
-    }
-
-    /// Puts back a copy made by [`Self::copy_trial`].
-    pub fn set_trial(&mut self, trial: Vec<f64>) {
-        debug_assert_eq!(trial.len(), self.trial.len());
-        self.trial = trial;
+    /// Makes the trial state the base of the next evaluations, without accepting it: a state passed
+    /// through on the way to the end of the step.
+    pub fn advance(&mut self) {
+        self.base.copy_from_slice(&self.trial);
     }
 
     /// Accepts the trial state.

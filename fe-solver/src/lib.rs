@@ -1,1 +1,18 @@
-//! fe-solver
+//! Nonlinear drivers behind one step control, on sparse direct solvers.
+//!
+//! The crate knows systems of equations and steps, never concrete or steel. A [`stage::Stage`] holds a model
+//! under given conditions; a [`driver::Driver`] ([`newton::NewtonRaphson`], [`secant::SecantAnderson`])
+//! brings one step to equilibrium; [`control::StepControl`] chooses step lengths, accepts or repeats, and
+//! tells a [`recorder::Recorder`].
+
+pub mod anderson;
+pub mod capacity;
+pub mod control;
+pub mod driver;
+pub mod error;
+pub mod linear;
+pub mod newton;
+pub mod path;
+pub mod recorder;
+pub mod secant;
+pub mod stage;

@@ -1,0 +1,5 @@
+//! Shape functions, inverse maps and quadrature on the reference cells, xi in [-1, 1]^d.
+
+pub mod hex20;
+pub mod quad8;
+pub mod quadrature;

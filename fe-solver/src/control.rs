@@ -1,0 +1,221 @@
+//! Step control: adaptive length, shortening on failure, acceptance, recording.
+
+use crate::driver::{Attempt, Driver};
+use crate::error::SolverError;
+use crate::recorder::{Continue, IterationRecord, Recorder, StepView};
+use crate::stage::Stage;
+
+/// What to do when even the shortest step does not meet the criterion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OnFailure {
+    /// Stop with [`SolverError::NoConvergence`].
+    Stop,
+    /// Accept the best iterate and flag the step.
+    Flag,
+}
+
+/// Settings of the step control; lengths in units of the load factor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepControl {
+    /// First step.
+    pub initial: f64,
+    /// Longest step.
+    pub longest: f64,
+    /// Shortest step.
+    pub shortest: f64,
+    /// Load factor at which the stage ends.
+    pub end: f64,
+    /// Relative residual a step must meet.
+    pub criterion: f64,
+    /// A step that took fewer iterations is followed by a longer one.
+    pub easy: usize,
+    /// Growth of the step after an easy one.
+    pub growth: f64,
+    /// What to do when the shortest step fails.
+    pub on_failure: OnFailure,
+}
+
+impl StepControl {
+    /// From 0 to `end` in steps of `initial`, which may shorten to 1/64.
+    pub const fn new(initial: f64, end: f64) -> Self {
+        Self {
+            initial,
+            longest: initial,
+            shortest: initial / 64.0,
+            end,
+            criterion: 1e-3,
+            easy: 8,
+            growth: 1.3,
+            on_failure: OnFailure::Stop,
+        }
+    }
+
+    fn check(&self) -> Result<(), SolverError> {
+        for (what, value) in [
+            ("first step", self.initial),
+            ("shortest step", self.shortest),
+            ("end", self.end),
+            ("criterion", self.criterion),
+        ] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(SolverError::Setting {
+                    what,
+                    value,
+                    allowed: "(0, inf)",
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Runs a stage to its end, or until the recorder stops it. Returns the reason.
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError`]; everything accepted before has been recorded.
+    pub fn run(
+        &self,
+        stage: &mut Stage<'_>,
+        driver: &mut dyn Driver,
+        recorder: &mut dyn Recorder,
+    ) -> Result<String, SolverError> {
+        self.check()?;
+        let mut length = self.initial.min(self.longest);
+        let mut progress = 0.0;
+        let mut step = 1;
+        let mut attempts = 0;
+        loop {
+            let remaining = self.end - progress;
+            if remaining <= 1e-9 * self.end {
+                return Ok(format!("reached the end of the stage at {}", self.end));
+            }
+            // A last sliver shorter than half a step is merged into this one.
+            let this = if remaining < 1.5 * length && remaining <= self.longest {
+                remaining
+            } else {
+                length.min(remaining)
+            };
+            attempts += 1;
+            let can_shorten = 0.5 * this >= self.shortest;
+            let attempt = self.attempt(stage, driver, recorder, this, !can_shorten, step, attempts);
+            match attempt {
+                Ok(attempt)
+                    if attempt.converged
+                        || (!can_shorten && self.on_failure == OnFailure::Flag) =>
+                {
+                    let easy = attempt.converged && attempt.iterations < self.easy;
+                    let verdict = self.accept(stage, recorder, attempt, step, attempts)?;
+                    if let Continue::Stop(reason) = verdict {
+                        return Ok(reason);
+                    }
+                    length = if easy {
+                        (this * self.growth).max(length).min(self.longest)
+                    } else {
+                        this.min(length)
+                    };
+                    progress += this;
+                    step += 1;
+                    attempts = 0;
+                }
+                Ok(_) if can_shorten => {
+                    stage.roll_back();
+                    stage.counters_mut().cutbacks += 1;
+                    length = 0.5 * this;
+                }
+                Err(e) if can_shorten && e.is_recoverable() => {
+                    stage.roll_back();
+                    stage.counters_mut().cutbacks += 1;
+                    length = 0.5 * this;
+                }
+                Ok(attempt) => {
+                    stage.roll_back();
+                    return Err(SolverError::NoConvergence {
+                        lambda: stage.lambda(),
+                        step: this,
+                        residual: attempt.residual.relative,
+                        tolerance: self.criterion,
+                        iterations: attempt.iterations,
+                        worst: stage.describe(attempt.residual.worst),
+                    });
+                }
+                Err(e) => {
+                    stage.roll_back();
+                    return Err(e);
+                }
+            }
+        }
+    }
+
+    fn attempt(
+        &self,
+        stage: &mut Stage<'_>,
+        driver: &mut dyn Driver,
+        recorder: &mut dyn Recorder,
+        length: f64,
+        last_resort: bool,
+        step: usize,
+        attempt: usize,
+    ) -> Result<Attempt, SolverError> {
+        let mut iteration = 0;
+        let lambda = stage.lambda() + length;
+        let result = driver.attempt(
+            stage,
+            length,
+            self.criterion,
+            last_resort,
+            &mut |residual, line_search| {
+                recorder.iteration(&IterationRecord {
+                    step,
+                    attempt,
+                    iteration,
+                    lambda,
+                    residual: residual.relative,
+                    criterion: self.criterion,
+                    line_search,
+                })?;
+                iteration += 1;
+                Ok(())
+            },
+        );
+        stage.counters_mut().iterations += iteration;
+        result
+    }
+
+    /// Measures the accepted state with the inviscid law, commits it and records it.
+    fn accept(
+        &self,
+        stage: &mut Stage<'_>,
+        recorder: &mut dyn Recorder,
+        attempt: Attempt,
+        step: usize,
+        attempts: usize,
+    ) -> Result<Continue, SolverError> {
+        let Attempt {
+            displacement,
+            lambda,
+            converged,
+            iterations,
+            residual,
+            held,
+        } = attempt;
+        let increment = lambda - stage.lambda();
+        let load = stage.load();
+        let work_conjugate_load = stage.work_conjugate_load(&displacement, lambda);
+        stage.commit(displacement, lambda);
+        let view = StepView {
+            step,
+            lambda,
+            increment,
+            attempts,
+            iterations,
+            residual: residual.relative,
+            held,
+            load,
+            work_conjugate_load,
+            flagged: !converged,
+            negative_pivots: stage.counters().negative_pivots,
+            stage,
+        };
+        Ok(recorder.step(&view)?)
+    }
+}

@@ -1,0 +1,49 @@
+//! The contract of a driver: how one step is brought to equilibrium.
+
+use std::fmt::Debug;
+
+use crate::error::SolverError;
+use crate::stage::{Residual, Stage};
+
+/// What a driver reports of each iteration: residual and line-search factor.
+pub type IterationLog<'a> = dyn FnMut(&Residual, f64) -> Result<(), SolverError> + 'a;
+
+/// Result of one attempt at a step. The trial state of the stage is that of `displacement`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Attempt {
+    /// Displacement of all DOFs [mm]; the best iterate if the attempt did not converge.
+    pub displacement: Vec<f64>,
+    /// Load factor.
+    pub lambda: f64,
+    /// Whether the criterion was met.
+    pub converged: bool,
+    /// Residual of the law as solved.
+    pub residual: Residual,
+    /// Iterations spent.
+    pub iterations: usize,
+    /// Solves at a held load factor that it took to pass a snap; 0 for a regular step.
+    pub held: usize,
+}
+
+/// Brings one step to equilibrium, starting from the accepted state of a stage.
+pub trait Driver: Debug {
+    /// Name, for output.
+    fn name(&self) -> &'static str;
+
+    /// Tries a step of the given length along the path (the increment of the load factor, unless a path
+    /// constraint says otherwise) within the relative residual `criterion`.
+    ///
+    /// `last_resort` tells that the step will not be shortened any more.
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError`]; a recoverable one asks for a shorter step.
+    fn attempt(
+        &mut self,
+        stage: &mut Stage<'_>,
+        length: f64,
+        criterion: f64,
+        last_resort: bool,
+        log: &mut IterationLog<'_>,
+    ) -> Result<Attempt, SolverError>;
+}

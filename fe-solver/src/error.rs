@@ -1,0 +1,77 @@
+//! What stops an analysis.
+
+use fe_core::dof::Dof;
+use fe_core::mesh::NodeId;
+use fe_core::model::ModelError;
+
+use crate::linear::LinearError;
+
+/// Why an analysis could not go on.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolverError {
+    /// The model could not be evaluated.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The linear solver failed for a reason that is not the model's.
+    #[error("linear solver: {0}")]
+    Linear(LinearError),
+    /// The model can move without resistance.
+    #[error(
+        "the stiffness is singular at {dof} of node {node} at {position:?} mm (pivot ratio {ratio:.1e}): \
+         the model, or a part of it, is not held there; add a support or connect the part"
+    )]
+    Singular {
+        /// Node.
+        node: NodeId,
+        /// DOF.
+        dof: Dof,
+        /// Position of the node [mm].
+        position: [f64; 3],
+        /// Smallest over largest pivot.
+        ratio: f64,
+    },
+    /// No step could be completed, not even the shortest.
+    #[error(
+        "no convergence at load factor {lambda:.6} with the shortest step {step:.3e}: relative residual \
+         {residual:.2e} after {iterations} iterations (allowed {tolerance:.1e}); worst at {worst}; try \
+         a smaller shortest step, more iterations or the secant driver"
+    )]
+    NoConvergence {
+        /// Load factor of the last accepted step.
+        lambda: f64,
+        /// Step tried last.
+        step: f64,
+        /// Relative residual reached.
+        residual: f64,
+        /// Tolerance.
+        tolerance: f64,
+        /// Iterations spent in the last attempt.
+        iterations: usize,
+        /// Node and DOF of the largest residual.
+        worst: String,
+    },
+    /// A recorder could not write.
+    #[error("cannot write results: {0}")]
+    Output(#[from] std::io::Error),
+    /// A setting is impossible.
+    #[error("{what} = {value} is outside {allowed}")]
+    Setting {
+        /// Setting.
+        what: &'static str,
+        /// Value.
+        value: f64,
+        /// Allowed range.
+        allowed: &'static str,
+    },
+}
+
+impl SolverError {
+    /// Whether a shorter step may cure it.
+    pub fn is_recoverable(&self) -> bool {
+        match self {
+            Self::Model(e) => e.is_recoverable(),
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! Protects the linear layer against dense references: solutions, inertia, singular models, repeatability.
+
+use fe_core::sparsity::{MatrixValues, Sparsity};
+use nalgebra::{DMatrix, DVector};
+
+use super::{DirectSolver, LinearError, LinearSolver};
+
+/// A small deterministic generator.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+    }
+}
+
+/// Chain of overlapping groups of five equations, like elements along a beam.
+fn pattern(n: u32) -> Sparsity {
+    let groups: Vec<Vec<u32>> = (0..n - 4)
+        .step_by(2)
+        .map(|i| (i..i + 5).collect())
+        .collect();
+    Sparsity::from_groups(n as usize, groups.iter().map(Vec::as_slice))
+}
+
+fn dense(p: &Sparsity, v: &MatrixValues) -> DMatrix<f64> {
+    let upper = if v.is_symmetric() { &v.lower } else { &v.upper };
+    let mut a = DMatrix::zeros(p.len(), p.len());
+    for j in 0..p.len() {
+        for k in p.col_ptr()[j]..p.col_ptr()[j + 1] {
+            let i = p.row_idx()[k];
+            a[(j, i)] = upper[k];
+            a[(i, j)] = v.lower[k];
+        }
+    }
+    a
+}
+
+/// Random values with the given diagonal.
+fn values(
+    p: &Sparsity,
+    seed: u64,
+    diagonal: impl Fn(usize) -> f64,
+    unsymmetric: bool,
+) -> MatrixValues {
+    let mut random = Random(seed);
+    let mut lower: Vec<f64> = (0..p.nnz()).map(|_| random.next()).collect();
+    let mut upper: Vec<f64> = (0..p.nnz()).map(|_| random.next()).collect();
+    for j in 0..p.len() {
+        lower[p.col_ptr()[j]] = diagonal(j);
+        upper[p.col_ptr()[j]] = diagonal(j);
+    }
+    if !unsymmetric {
+        upper.clear();
+    }
+    MatrixValues { lower, upper }
+}
+
+fn solve(p: &Sparsity, v: &MatrixValues, b: &[f64]) -> (Vec<f64>, usize) {
+    let mut solver = DirectSolver::default();
+    solver.analyze(p).unwrap();
+    let inertia = solver.factorize(v).unwrap();
+    let mut x = b.to_vec();
+    solver.solve_in_place(&mut x).unwrap();
+    (x, inertia.negative)
+}
+
+#[test]
+fn solutions_and_inertia_agree_with_dense_ones() {
+    let p = pattern(41);
+    let b: Vec<f64> = (0..41).map(|i| f64::from(i).sin()).collect();
+    for negative in [0, 1, 4, 10, 30] {
+        let v = values(
+            &p,
+            7 + negative as u64,
+            |j| if j % 41 < negative { -4.0 } else { 4.0 },
+            false,
+        );
+        let a = dense(&p, &v);
+        let expected = a
+            .clone()
+            .symmetric_eigenvalues()
+            .iter()
+            .filter(|&&w| w < 0.0)
+            .count();
+        let (x, count) = solve(&p, &v, &b);
+        assert_eq!(count, expected);
+        let residual = &a * DVector::from_vec(x) - DVector::from_row_slice(&b);
+        assert!(residual.norm() < 1e-12, "{negative}: {}", residual.norm());
+    }
+}
+
+#[test]
+fn unsymmetric_solutions_agree_with_dense_ones() {
+    let p = pattern(41);
+    let b: Vec<f64> = (0..41).map(|i| f64::from(i).cos()).collect();
+    let v = values(&p, 3, |_| 3.0, true);
+    let (x, _) = solve(&p, &v, &b);
+    let residual = dense(&p, &v) * DVector::from_vec(x) - DVector::from_row_slice(&b);
+    assert!(residual.norm() < 1e-12);
+}
+
+#[test]
+fn a_free_chain_and_a_zero_row_are_refused_by_equation() {
+    // Springs between neighbours, held nowhere: the rigid-body mode has no energy.
+    let n = 12;
+    let groups: Vec<Vec<u32>> = (0..n - 1).map(|i| vec![i, i + 1]).collect();
+    let p = Sparsity::from_groups(n as usize, groups.iter().map(Vec::as_slice));
+    let mut v = MatrixValues {
+        lower: vec![-1.0; p.nnz()],
+        upper: vec![],
+    };
+    for j in 0..n as usize {
+        v.lower[p.col_ptr()[j]] = if j == 0 || j + 1 == n as usize {
+            1.0
+        } else {
+            2.0
+        };
+    }
+    let mut solver = DirectSolver::default();
+    solver.analyze(&p).unwrap();
+    assert!(matches!(
+        solver.factorize(&v),
+        Err(LinearError::Singular { .. })
+    ));
+    v.upper = v.lower.clone();
+    assert!(matches!(
+        solver.factorize(&v),
+        Err(LinearError::Singular { .. })
+    ));
+    // An equation without stiffness in an otherwise sound matrix.
+    let mut v = values(&p, 5, |_| 4.0, false);
+    for j in 0..n as usize {
+        for k in p.col_ptr()[j]..p.col_ptr()[j + 1] {
+            if j == 6 || p.row_idx()[k] == 6 {
+                v.lower[k] = 0.0;
+            }
+        }
+    }
+    let error = solver.factorize(&v);
+    assert!(
+        matches!(error, Err(LinearError::Singular { equation: 6, .. })),
+        "{error:?}"
+    );
+}
+
+#[test]
+fn a_reused_analysis_gives_the_bits_of_a_fresh_one() {
+    let p = pattern(33);
+    let b: Vec<f64> = (0..33).map(f64::from).collect();
+    let mut reused = DirectSolver::default();
+    reused.analyze(&p).unwrap();
+    for seed in 0..4 {
+        let v = values(
+            &p,
+            seed,
+            |j| if seed == 2 && j == 3 { -4.0 } else { 4.0 },
+            false,
+        );
+        reused.factorize(&v).unwrap();
+        let mut x = b.clone();
+        reused.solve_in_place(&mut x).unwrap();
+        if seed != 3 {
+            assert_eq!(x, solve(&p, &v, &b).0);
+        }
+    }
+}
+
+#[test]
+fn no_equations_and_no_factor_are_not_a_panic() {
+    let p = Sparsity::from_groups(0, std::iter::empty::<&[u32]>());
+    let mut solver = DirectSolver::default();
+    assert_eq!(
+        solver.solve_in_place(&mut []),
+        Err(LinearError::NotAnalysed)
+    );
+    solver.analyze(&p).unwrap();
+    solver.factorize(&MatrixValues::default()).unwrap();
+    solver.solve_in_place(&mut []).unwrap();
+}

@@ -1,0 +1,163 @@
+//! Newton-Raphson on the bordered system, full and modified, with a line search.
+
+use fe_core::element::EvaluationContext;
+use fe_core::material::Operator;
+
+use crate::anderson::dot;
+use crate::driver::{Attempt, Driver, IterationLog};
+use crate::error::SolverError;
+use crate::path::{LoadFactor, PathConstraint};
+use crate::stage::Stage;
+
+/// When the tangent is rebuilt and factorised.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Refactor {
+    /// In every iteration: full Newton-Raphson.
+    Always,
+    /// When an iteration has reduced the residual by less than this factor: modified Newton-Raphson.
+    Below(f64),
+}
+
+/// Settings of [`NewtonRaphson`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NewtonSettings {
+    /// Iterations of one attempt.
+    pub max_iterations: usize,
+    /// When the tangent is rebuilt.
+    pub refactor: Refactor,
+    /// Operator asked of the laws.
+    pub operator: Operator,
+    /// Halvings of the line search; 0 switches it off.
+    pub halvings: usize,
+}
+
+impl Default for NewtonSettings {
+    fn default() -> Self {
+        Self {
+            max_iterations: 25,
+            refactor: Refactor::Always,
+            operator: Operator::Tangent,
+            halvings: 5,
+        }
+    }
+}
+
+/// Newton-Raphson with a path constraint.
+///
+/// The line search halves the correction until the residual norm falls. If no tried factor reduces it the
+/// attempt ends: a worse residual is never accepted.
+#[derive(Debug)]
+pub struct NewtonRaphson {
+    settings: NewtonSettings,
+    constraint: Box<dyn PathConstraint>,
+}
+
+impl NewtonRaphson {
+    /// Newton-Raphson under control of the load factor.
+    pub fn new(settings: NewtonSettings) -> Self {
+        Self::with_constraint(settings, Box::new(LoadFactor::default()))
+    }
+
+    /// Newton-Raphson under another path constraint.
+    pub fn with_constraint(settings: NewtonSettings, constraint: Box<dyn PathConstraint>) -> Self {
+        Self {
+            settings,
+            constraint,
+        }
+    }
+}
+
+impl Driver for NewtonRaphson {
+    fn name(&self) -> &'static str {
+        match self.settings.refactor {
+            Refactor::Always => "Newton-Raphson",
+            Refactor::Below(_) => "modified Newton-Raphson",
+        }
+    }
+
+    fn attempt(
+        &mut self,
+        stage: &mut Stage<'_>,
+        length: f64,
+        criterion: f64,
+        _last_resort: bool,
+        log: &mut IterationLog<'_>,
+    ) -> Result<Attempt, SolverError> {
+        let s = self.settings;
+        self.constraint.begin(length);
+        let tangent = EvaluationContext::new(s.operator);
+        let force = EvaluationContext::new(Operator::None);
+        let start = stage.restrict(stage.displacement());
+        let mut du = vec![0.0; start.len()];
+        let mut lambda = stage.lambda();
+        let mut gradient = vec![0.0; start.len()];
+        let mut u = stage.displacement().to_vec();
+        let mut residual = stage.residual(&u, lambda, &tangent)?;
+        stage.factorise()?;
+        let mut reference = stage.reference_load();
+        stage.solve(&mut reference)?;
+        let mut iterations = 0;
+        loop {
+            let mut correction = residual.clone();
+            stage.solve(&mut correction)?;
+            gradient.fill(0.0);
+            let border = self
+                .constraint
+                .linearise(&du, lambda - stage.lambda(), &mut gradient);
+            let dlambda = -(border.value + dot(&gradient, &correction))
+                / (border.slope + dot(&gradient, &reference));
+            for (c, q) in correction.iter_mut().zip(&reference) {
+                *c += dlambda * q;
+            }
+            // The predictor carries the whole increment; corrections are searched along.
+            let halvings = if iterations == 0 { 0 } else { s.halvings };
+            let before = dot(&residual, &residual).sqrt();
+            let mut factor = 1.0;
+            let mut after;
+            let mut tried = 0;
+            loop {
+                let trial: Vec<f64> = (0..du.len())
+                    .map(|i| start[i] + du[i] + factor * correction[i])
+                    .collect();
+                u = stage.compose(&trial, lambda + factor * dlambda);
+                residual = stage.residual(&u, lambda + factor * dlambda, &force)?;
+                after = dot(&residual, &residual).sqrt();
+                if after < before || tried >= halvings {
+                    break;
+                }
+                tried += 1;
+                factor *= 0.5;
+            }
+            iterations += 1;
+            let size = stage.measure(&residual);
+            let worse = iterations > 1 && s.halvings > 0 && after >= before;
+            log(&size, factor)?;
+            lambda += factor * dlambda;
+            for (d, c) in du.iter_mut().zip(&correction) {
+                *d += factor * c;
+            }
+            let converged = size.relative <= criterion;
+            if converged || worse || iterations >= s.max_iterations || !size.relative.is_finite() {
+                return Ok(Attempt {
+                    displacement: u,
+                    lambda,
+                    converged,
+                    residual: size,
+                    iterations,
+                    held: 0,
+                });
+            }
+            stage.latch();
+            let slow = match s.refactor {
+                Refactor::Always => true,
+                Refactor::Below(reduction) => iterations == 1 || after * reduction > before,
+            };
+            if slow {
+                residual = stage.residual(&u, lambda, &tangent)?;
+                stage.factorise()?;
+                reference = stage.reference_load();
+                stage.solve(&mut reference)?;
+            }
+        }
+    }
+}

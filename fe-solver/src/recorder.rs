@@ -1,0 +1,79 @@
+//! What an analysis tells the outside while it runs.
+
+use crate::stage::Stage;
+
+/// One iteration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IterationRecord {
+    /// Step under way, counted from 1.
+    pub step: usize,
+    /// Attempt at this step, counted from 1.
+    pub attempt: usize,
+    /// Iteration within the attempt, counted from 0 (the predictor).
+    pub iteration: usize,
+    /// Load factor aimed at.
+    pub lambda: f64,
+    /// Relative residual.
+    pub residual: f64,
+    /// Criterion it is held against.
+    pub criterion: f64,
+    /// Factor of the line search, 1 without one.
+    pub line_search: f64,
+}
+
+/// One accepted step.
+#[derive(Debug)]
+pub struct StepView<'a> {
+    /// The stage, with its accepted displacement and state.
+    pub stage: &'a Stage<'a>,
+    /// Step, counted from 1.
+    pub step: usize,
+    /// Load factor reached.
+    pub lambda: f64,
+    /// Length of the step in the load factor.
+    pub increment: f64,
+    /// Attempts it took.
+    pub attempts: usize,
+    /// Iterations of the successful attempt.
+    pub iterations: usize,
+    /// Relative residual of the accepted state with the true, inviscid law.
+    pub residual: f64,
+    /// Solves at a held load factor that it took to pass a snap; 0 for a regular step.
+    pub held: usize,
+    /// Load conjugate to the load factor.
+    pub load: f64,
+    /// Work-conjugate load of the step.
+    pub work_conjugate_load: f64,
+    /// Whether the step was accepted without meeting the criterion.
+    pub flagged: bool,
+    /// Negative pivots of the last factorisation.
+    pub negative_pivots: usize,
+}
+
+/// Whether to go on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Continue {
+    /// Go on.
+    Yes,
+    /// Stop after this step, for the stated reason.
+    Stop(String),
+}
+
+/// Receives iterations and accepted steps.
+pub trait Recorder {
+    /// One iteration was evaluated.
+    ///
+    /// # Errors
+    ///
+    /// An output error ends the analysis.
+    fn iteration(&mut self, _record: &IterationRecord) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    /// One step was accepted.
+    ///
+    /// # Errors
+    ///
+    /// An output error ends the analysis.
+    fn step(&mut self, view: &StepView<'_>) -> std::io::Result<Continue>;
+}

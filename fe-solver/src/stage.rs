@@ -1,0 +1,356 @@
+//! One load stage as the drivers see it: residuals, operators, solves, and the accepted state.
+
+use std::time::{Duration, Instant};
+
+use fe_core::assembly::{Assembled, Assembler};
+use fe_core::element::EvaluationContext;
+use fe_core::material::Operator;
+use fe_core::model::{Conditions, Model};
+use fe_core::state::StateStore;
+
+use crate::error::SolverError;
+use crate::linear::{DirectSolver, LinearError, LinearSolver};
+
+/// Deterministic counts of the work done.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Accepted steps.
+    pub steps: usize,
+    /// Iterations, failed attempts included.
+    pub iterations: usize,
+    /// Attempts given up and repeated with a shorter step.
+    pub cutbacks: usize,
+    /// Numeric factorisations.
+    pub factorisations: usize,
+    /// Evaluations of the internal force, operator evaluations included.
+    pub force_evaluations: usize,
+    /// Negative pivots of the last factorisation.
+    pub negative_pivots: usize,
+}
+
+/// Wall time by phase.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct PhaseTimes {
+    /// Force-only evaluations: laws and elements.
+    pub forces: Duration,
+    /// Operator evaluations: laws, elements and assembly.
+    pub assembly: Duration,
+    /// Numeric factorisation.
+    pub factorise: Duration,
+    /// Back-substitution.
+    pub solve: Duration,
+}
+
+/// Size of a residual.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Residual {
+    /// |f_ext - f_int| on the free equations over the norm of the reactions (2-norms).
+    pub relative: f64,
+    /// Largest component [N].
+    pub largest: f64,
+    /// DOF of that component.
+    pub worst: usize,
+}
+
+/// What the accepted state of a stage is built from.
+#[derive(Debug)]
+pub struct Stage<'m> {
+    model: &'m Model,
+    conditions: Conditions,
+    assembler: Assembler,
+    linear: DirectSolver,
+    state: &'m mut StateStore,
+    assembled: Assembled,
+    external: Vec<f64>,
+    start: Vec<f64>,
+    displacement: Vec<f64>,
+    lambda: f64,
+    previous: Option<(Vec<f64>, f64)>,
+    counters: Counters,
+    times: PhaseTimes,
+}
+
+impl<'m> Stage<'m> {
+    /// Builds pattern and analysis for a stage that starts from displacement `start` (all DOFs, mm).
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError::Linear`] when the analysis fails.
+    pub fn new(
+        model: &'m Model,
+        conditions: Conditions,
+        state: &'m mut StateStore,
+        start: Vec<f64>,
+    ) -> Result<Self, SolverError> {
+        let assembler = Assembler::new(model, &conditions);
+        let mut linear = DirectSolver::default();
+        linear
+            .analyze(assembler.pattern())
+            .map_err(SolverError::Linear)?;
+        Ok(Self {
+            model,
+            external: vec![0.0; start.len()],
+            displacement: start.clone(),
+            start,
+            conditions,
+            assembler,
+            linear,
+            state,
+            assembled: Assembled::default(),
+            lambda: 0.0,
+            previous: None,
+            counters: Counters::default(),
+            times: PhaseTimes::default(),
+        })
+    }
+
+    /// The model.
+    pub const fn model(&self) -> &'m Model {
+        self.model
+    }
+
+    /// Equation numbers and constraints.
+    pub const fn assembler(&self) -> &Assembler {
+        &self.assembler
+    }
+
+    /// Accepted displacement of all DOFs [mm].
+    pub fn displacement(&self) -> &[f64] {
+        &self.displacement
+    }
+
+    /// Accepted load factor.
+    pub const fn lambda(&self) -> f64 {
+        self.lambda
+    }
+
+    /// Last accepted increment of displacement (all DOFs) and load factor.
+    pub fn previous(&self) -> Option<(&[f64], f64)> {
+        self.previous.as_ref().map(|(du, dl)| (du.as_slice(), *dl))
+    }
+
+    /// Accepted states.
+    pub const fn state(&self) -> &StateStore {
+        self.state
+    }
+
+    /// Work counters.
+    pub const fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
+    /// Work counters, for drivers.
+    pub const fn counters_mut(&mut self) -> &mut Counters {
+        &mut self.counters
+    }
+
+    /// Wall time by phase.
+    pub const fn times(&self) -> &PhaseTimes {
+        &self.times
+    }
+
+    /// Displacement of all DOFs whose free part is `free` [mm] and whose constrained part belongs to
+    /// the load factor `lambda`.
+    pub fn compose(&self, free: &[f64], lambda: f64) -> Vec<f64> {
+        let mut u: Vec<f64> = self
+            .start
+            .iter()
+            .zip(self.assembler.rate())
+            .map(|(s, r)| s + lambda * r)
+            .collect();
+        for (&d, v) in self.assembler.free().iter().zip(free) {
+            u[d as usize] = *v;
+        }
+        u
+    }
+
+    /// Free part of a vector of all DOFs.
+    pub fn restrict(&self, full: &[f64]) -> Vec<f64> {
+        self.assembler
+            .free()
+            .iter()
+            .map(|&d| full[d as usize])
+            .collect()
+    }
+
+    /// Evaluates the internal force at `u` and returns the residual f_ext - f_int of the free
+    /// equations. The trial state is that of `u`.
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError::Model`].
+    pub fn residual(
+        &mut self,
+        u: &[f64],
+        lambda: f64,
+        ctx: &EvaluationContext,
+    ) -> Result<Vec<f64>, SolverError> {
+        let begin = Instant::now();
+        self.counters.force_evaluations += 1;
+        self.assembler
+            .evaluate(self.model, u, self.state, ctx, &mut self.assembled)?;
+        if ctx.operator == Operator::None {
+            self.times.forces += begin.elapsed();
+        } else {
+            self.times.assembly += begin.elapsed();
+        }
+        self.conditions.external(lambda, &mut self.external);
+        let (f, q) = (&self.external, &self.assembled.internal);
+        Ok(self
+            .assembler
+            .free()
+            .iter()
+            .map(|&d| f[d as usize] - q[d as usize])
+            .collect())
+    }
+
+    /// Factorises the matrix of the last evaluation that asked for an operator.
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError::Singular`] naming node and DOF, or [`SolverError::Linear`].
+    pub fn factorise(&mut self) -> Result<(), SolverError> {
+        let begin = Instant::now();
+        self.counters.factorisations += 1;
+        let result = self.linear.factorize(&self.assembled.matrix);
+        self.times.factorise += begin.elapsed();
+        self.counters.negative_pivots = result.map_err(|e| self.place(e))?.negative;
+        Ok(())
+    }
+
+    /// Solves with the last factor, in place.
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError::Singular`] or [`SolverError::Linear`].
+    pub fn solve(&mut self, rhs: &mut [f64]) -> Result<(), SolverError> {
+        let begin = Instant::now();
+        let result = self.linear.solve_in_place(rhs);
+        self.times.solve += begin.elapsed();
+        result.map_err(|e| self.place(e))
+    }
+
+    /// Load per unit of the load factor on the free equations: f_ref - K_fc p, of the last operator.
+    pub fn reference_load(&self) -> Vec<f64> {
+        let f = self.conditions.reference();
+        let free = self.assembler.free().iter();
+        free.zip(&self.assembled.coupling)
+            .map(|(&d, c)| f[d as usize] - c)
+            .collect()
+    }
+
+    /// Size of a residual, measured against the reactions of the last evaluation.
+    pub fn measure(&self, residual: &[f64]) -> Residual {
+        let mut reactions = 0.0;
+        for &d in self.conditions.prescribed().keys() {
+            reactions += (self.assembled.internal[d] - self.external[d]).powi(2);
+        }
+        let (mut sum, mut largest, mut worst) = (0.0, 0.0, 0);
+        for (&d, r) in self.assembler.free().iter().zip(residual) {
+            sum += r * r;
+            if r.abs() > largest || !r.is_finite() {
+                (largest, worst) = (r.abs(), d as usize);
+            }
+        }
+        let scale = if reactions > 0.0 {
+            reactions.sqrt()
+        } else {
+            1.0
+        };
+        let relative = if sum == 0.0 { 0.0 } else { sum.sqrt() / scale };
+        Residual {
+            relative: if relative.is_nan() {
+                f64::INFINITY
+            } else {
+                relative
+            },
+            largest,
+            worst,
+        }
+    }
+
+    /// Work-conjugate load of the last evaluation: (f_int - f_dead) . du / dlambda, over all DOFs,
+    /// where du leads from the accepted displacement to `u`. Equals [`Self::load`] in equilibrium.
+    pub fn work_conjugate_load(&self, u: &[f64], lambda: f64) -> f64 {
+        let dl = lambda - self.lambda;
+        let mut dead = vec![0.0; u.len()];
+        self.conditions.external(0.0, &mut dead);
+        let work: f64 = (0..u.len())
+            .map(|d| (self.assembled.internal[d] - dead[d]) * (u[d] - self.displacement[d]))
+            .sum();
+        work / dl
+    }
+
+    /// Load conjugate to the load factor of the last evaluation: reactions times the prescribed
+    /// pattern, plus the reference force times its displacement rate (none if the factor drives forces).
+    pub fn load(&self) -> f64 {
+        let prescribed = self.conditions.prescribed().iter();
+        prescribed
+            .map(|(&d, r)| (self.assembled.internal[d] - self.external[d]) * r)
+            .sum()
+    }
+
+    /// Reaction [N] of a constrained DOF in the last evaluation.
+    pub fn reaction(&self, dof: usize) -> f64 {
+        self.assembled.internal[dof] - self.external[dof]
+    }
+
+    /// Lets laws latch new cracks found by the last evaluation.
+    pub fn latch(&mut self) {
+        self.state.latch(self.model.elements());
+    }
+
+    /// Makes the trial state the history of the next evaluations without accepting it.
+    pub fn advance(&mut self) {
+        self.state.advance();
+    }
+
+    /// Forgets the trial state.
+    pub fn roll_back(&mut self) {
+        self.state.roll_back();
+    }
+
+    /// Accepts displacement, load factor and the trial state of the last evaluation.
+    pub fn commit(&mut self, u: Vec<f64>, lambda: f64) {
+        let du = u
+            .iter()
+            .zip(&self.displacement)
+            .map(|(a, b)| a - b)
+            .collect();
+        self.previous = Some((du, lambda - self.lambda));
+        self.displacement = u;
+        self.lambda = lambda;
+        self.state.commit();
+        self.counters.steps += 1;
+    }
+
+    /// Name of a DOF for messages.
+    pub fn describe(&self, dof: usize) -> String {
+        let (node, kind) = self.model.dofs().owner(dof);
+        let x = self.model.mesh().nodes()[node];
+        format!(
+            "{kind} of node {node} at ({:.1}, {:.1}, {:.1}) mm",
+            x[0], x[1], x[2]
+        )
+    }
+
+    fn place(&self, error: LinearError) -> SolverError {
+        match error {
+            LinearError::Singular {
+                equation,
+                pivot_ratio,
+            } => {
+                let dof_index = self.assembler.free()[equation] as usize;
+                let (node, dof) = self.model.dofs().owner(dof_index);
+                let position = self.model.mesh().nodes()[node];
+                SolverError::Singular {
+                    node,
+                    dof,
+                    position,
+                    ratio: pivot_ratio,
+                }
+            }
+            other => SolverError::Linear(other),
+        }
+    }
+}
