@@ -1,1 +1,12 @@
-//! fe-elements
+//! Finite elements: the 20-node hexahedron, the 8-node plane-stress quadrilateral and bars embedded in
+//! hexahedra of any shape, with consistent loads.
+
+pub mod embedded_bar;
+pub mod hex20;
+mod kernel;
+pub mod loads;
+pub mod quad8;
+
+pub use embedded_bar::{Bar, Dowel, EmbeddedBar, embed};
+pub use hex20::{BandWidth, Hex20, HexRule};
+pub use quad8::{Quad8, QuadRule};

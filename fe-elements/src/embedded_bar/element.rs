@@ -1,0 +1,290 @@
+//! The part of a bar inside one host, as an element on the host's nodes.
+
+use std::sync::Arc;
+
+use fe_core::dof::Dof;
+use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
+use fe_core::kinematics::{Axial, Kinematics};
+use fe_core::material::{Material, Operator, PointContext};
+use fe_core::mesh::NodeId;
+use fe_core::shape::quadrature;
+use nalgebra::{Vector1, Vector3};
+
+use super::cut::{Host, Piece};
+use super::{Bar, gradients_at};
+
+/// Row vector of 60 entries, DOF order node-major.
+type Row = [f64; 60];
+
+/// One Gauss point of a bar.
+#[derive(Debug, Clone)]
+struct BarPoint {
+    position: [f64; 3],
+    arc_length: f64,
+    weight: f64,
+    /// Axial strain = `axial` . u.
+    axial: Row,
+    /// Transverse shear strain = `shear` . u.
+    shear: Option<Box<Row>>,
+}
+
+/// The pieces of one bar inside one host.
+#[derive(Debug)]
+pub struct EmbeddedBar {
+    bar: String,
+    nodes: [NodeId; 20],
+    area: f64,
+    dowel: f64,
+    law: Arc<dyn Material<Axial>>,
+    points: Vec<BarPoint>,
+    /// Ends of each piece and the number of its points.
+    pieces: Vec<([[f64; 3]; 2], usize)>,
+}
+
+impl EmbeddedBar {
+    pub(super) fn new(bar: &Bar, host: &Host, pieces: &[Piece]) -> Result<Self, ElementError> {
+        let rule = quadrature::gauss_legendre(if host.is_affine() { 2 } else { 4 });
+        let mut points = Vec::new();
+        let mut drawn = Vec::new();
+        for piece in pieces {
+            let [a, b] = piece.ends;
+            let length = (b - a).norm();
+            let t = (b - a) / length;
+            let transverse = bar
+                .dowel
+                .and_then(|d| Vector3::from(d.plane_normal).cross(&t).try_normalize(1e-6));
+            for &(xi, w) in &rule {
+                let share = 0.5 * (1.0 + xi);
+                let position = a + share * (b - a);
+                let Some(g) = gradients_at(host, position) else {
+                    return Err(ElementError::NoHost {
+                        bar: bar.name.clone(),
+                        x: position[0],
+                        y: position[1],
+                        z: position[2],
+                    });
+                };
+                points.push(BarPoint {
+                    position: position.into(),
+                    arc_length: piece.start + share * length,
+                    weight: 0.5 * w * length,
+                    axial: axial_row(&g, t),
+                    shear: transverse.map(|n| Box::new(shear_row(&g, t, n))),
+                });
+            }
+            drawn.push(([a.into(), b.into()], rule.len()));
+        }
+        Ok(Self {
+            bar: bar.name.clone(),
+            nodes: host.nodes,
+            area: bar.area_mm2,
+            dowel: bar.dowel.map_or(0.0, |d| d.stiffness_n),
+            law: Arc::clone(&bar.law),
+            points,
+            pieces: drawn,
+        })
+    }
+
+    /// Name of the bar.
+    pub fn bar(&self) -> &str {
+        &self.bar
+    }
+
+    /// Length of the bar inside this host [mm].
+    pub fn length(&self) -> f64 {
+        self.points.iter().map(|p| p.weight).sum()
+    }
+
+    /// Axial strain and stress [MPa] at every point with its arc length along the bar [mm].
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Material`].
+    pub fn strains(
+        &self,
+        u: &[f64],
+        state: &[f64],
+        visit: &mut dyn FnMut(f64, f64, f64),
+    ) -> Result<(), ElementError> {
+        let mut i = 0;
+        self.sample(u, state, &mut |s| {
+            visit(self.points[i].arc_length, s.strain[0], s.stress[0]);
+            i += 1;
+        })
+    }
+
+    const fn context(ctx: &EvaluationContext) -> PointContext {
+        PointContext {
+            band_width: 0.0,
+            operator: ctx.operator,
+            relaxation: ctx.relaxation,
+        }
+    }
+}
+
+/// t . (grad u) t: entry (a, k) is (grad N_a . t) t_k.
+fn axial_row(g: &[[f64; 3]; 20], t: Vector3<f64>) -> Row {
+    let mut row = [0.0; 60];
+    for a in 0..20 {
+        let along = Vector3::from(g[a]).dot(&t);
+        for k in 0..3 {
+            row[3 * a + k] = along * t[k];
+        }
+    }
+    row
+}
+
+/// t . (grad u + grad u^T) n.
+fn shear_row(g: &[[f64; 3]; 20], t: Vector3<f64>, n: Vector3<f64>) -> Row {
+    let mut row = [0.0; 60];
+    for a in 0..20 {
+        let (along, across) = (Vector3::from(g[a]).dot(&t), Vector3::from(g[a]).dot(&n));
+        for k in 0..3 {
+            row[3 * a + k] = along * n[k] + across * t[k];
+        }
+    }
+    row
+}
+
+fn dot(row: &Row, u: &[f64]) -> f64 {
+    row.iter().zip(u).map(|(a, b)| a * b).sum()
+}
+
+/// Adds c r r^T to the upper triangle of a 60 x 60 matrix.
+fn add_outer(c: f64, row: &Row, out: &mut [f64]) {
+    for (i, target) in out.chunks_exact_mut(60).enumerate() {
+        let scaled = c * row[i];
+        if scaled != 0.0 {
+            for (t, r) in target[i..].iter_mut().zip(&row[i..]) {
+                *t += scaled * r;
+            }
+        }
+    }
+}
+
+impl Element for EmbeddedBar {
+    fn nodes(&self) -> &[NodeId] {
+        &self.nodes
+    }
+
+    fn dofs(&self) -> &'static [Dof] {
+        &Dof::DISPLACEMENTS
+    }
+
+    fn state_len(&self) -> usize {
+        self.points.len() * self.law.state_len()
+    }
+
+    fn init_state(&self, state: &mut [f64]) {
+        let n = self.law.state_len();
+        for p in 0..self.points.len() {
+            self.law.init_state(&mut state[p * n..(p + 1) * n]);
+        }
+    }
+
+    fn evaluate(
+        &self,
+        u: &[f64],
+        committed: &[f64],
+        trial: &mut [f64],
+        ctx: &EvaluationContext,
+        out: ElementSystem<'_>,
+    ) -> Result<(), ElementError> {
+        let n = self.law.state_len();
+        let point_ctx = Self::context(ctx);
+        for (p, point) in self.points.iter().enumerate() {
+            let strain = Vector1::new(dot(&point.axial, u));
+            let range = p * n..(p + 1) * n;
+            let response = self
+                .law
+                .update(
+                    &strain,
+                    &committed[range.clone()],
+                    &mut trial[range],
+                    &point_ctx,
+                )
+                .map_err(|source| ElementError::Material { point: p, source })?;
+            let axial = self.area * point.weight * response.stress[0];
+            for (f, b) in out.force.iter_mut().zip(&point.axial) {
+                *f += axial * b;
+            }
+            if ctx.operator != Operator::None {
+                let c = self.area * point.weight * response.tangent[(0, 0)];
+                add_outer(c, &point.axial, out.stiffness);
+            }
+            if let Some(shear) = &point.shear {
+                let c = self.dowel * point.weight;
+                let force = c * dot(shear, u);
+                for (f, b) in out.force.iter_mut().zip(shear.iter()) {
+                    *f += force * b;
+                }
+                if ctx.operator != Operator::None {
+                    add_outer(c, shear, out.stiffness);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
+        let n = self.law.state_len();
+        let ctx = Self::context(&EvaluationContext::frozen());
+        self.points
+            .iter()
+            .enumerate()
+            .try_fold(0.0, |sum, (p, point)| {
+                let strain = Vector1::new(dot(&point.axial, u));
+                let own = &state[p * n..(p + 1) * n];
+                let shear = point.shear.as_ref().map_or(0.0, |row| dot(row, u));
+                let density = self.area * self.law.free_energy(&strain, own, &ctx)?
+                    + 0.5 * self.dowel * shear * shear;
+                Some(sum + point.weight * density)
+            })
+    }
+
+    fn sample(
+        &self,
+        u: &[f64],
+        state: &[f64],
+        visit: &mut dyn FnMut(PointSample<'_>),
+    ) -> Result<(), ElementError> {
+        let n = self.law.state_len();
+        let ctx = Self::context(&EvaluationContext::frozen());
+        let mut scratch = vec![0.0; n];
+        for (p, point) in self.points.iter().enumerate() {
+            let own = &state[p * n..(p + 1) * n];
+            let strain = Vector1::new(dot(&point.axial, u));
+            let response = self
+                .law
+                .update(&strain, own, &mut scratch, &ctx)
+                .map_err(|source| ElementError::Material { point: p, source })?;
+            visit(PointSample {
+                position: point.position,
+                volume: self.area * point.weight,
+                strain: Axial::components(&strain),
+                stress: Axial::components(&response.stress),
+                report: self.law.report(&strain, own),
+                state_vars: self.law.state_vars(),
+                state: own,
+            });
+        }
+        Ok(())
+    }
+
+    fn segments(
+        &self,
+        u: &[f64],
+        state: &[f64],
+        visit: &mut dyn FnMut([[f64; 3]; 2], f64),
+    ) -> Result<(), ElementError> {
+        let mut stresses = Vec::with_capacity(self.points.len());
+        self.sample(u, state, &mut |s| stresses.push(s.stress[0]))?;
+        let mut rest = stresses.as_slice();
+        for (ends, count) in &self.pieces {
+            let (own, tail) = rest.split_at(*count);
+            visit(*ends, own.iter().sum::<f64>() / *count as f64);
+            rest = tail;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,134 @@
+//! Reinforcing bars embedded in hexahedra of any shape.
+//!
+//! A bar is a polyline that shares the displacements of its hosts (perfect bond): at a point of direction
+//! t the axial strain is e = t . (grad u) t, and the internal force is int A sigma B^T ds. The polyline is cut
+//! at every face of a host, because the strain has a kink there; a piece in an affine host is integrated
+//! with two Gauss points (the strain along a line is at most cubic), in a distorted one with four.
+
+mod cut;
+mod dowel;
+mod element;
+
+pub use dowel::Dowel;
+pub use element::EmbeddedBar;
+
+use std::sync::Arc;
+
+use fe_core::element::ElementError;
+use fe_core::kinematics::Axial;
+use fe_core::material::Material;
+use fe_core::mesh::{CellKind, Mesh, NodeId};
+use fe_core::shape::hex20;
+use nalgebra::Vector3;
+
+use cut::{Host, Piece};
+
+/// A bar before it is embedded.
+#[derive(Debug, Clone)]
+pub struct Bar {
+    /// Name, for messages and gauges.
+    pub name: String,
+    /// Corners of the polyline [mm].
+    pub polyline: Vec<[f64; 3]>,
+    /// Cross-section [mm2].
+    pub area_mm2: f64,
+    /// Uniaxial law.
+    pub law: Arc<dyn Material<Axial>>,
+    /// Transverse stiffness where the bar crosses cracks, if any.
+    pub dowel: Option<Dowel>,
+}
+
+impl Bar {
+    fn check(&self) -> Result<(), ElementError> {
+        let input = |what: &str, value: f64, allowed: &str, remedy: &str| ElementError::Input {
+            what: format!("bar {}: {what}", self.name),
+            value,
+            allowed: allowed.into(),
+            remedy: remedy.into(),
+        };
+        if !(self.area_mm2.is_finite() && self.area_mm2 > 0.0) {
+            return Err(input(
+                "area_mm2",
+                self.area_mm2,
+                "(0, inf)",
+                "give a positive area",
+            ));
+        }
+        if self.polyline.len() < 2 {
+            let count = self.polyline.len() as f64;
+            return Err(input(
+                "number of points",
+                count,
+                "2 or more",
+                "give both ends of the bar",
+            ));
+        }
+        if let Some(bad) = self.polyline.iter().flatten().find(|c| !c.is_finite()) {
+            return Err(input(
+                "coordinate",
+                *bad,
+                "finite numbers",
+                "give coordinates in mm",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Embeds bars in the hexahedra of the named blocks; one element per bar and host.
+///
+/// A piece on a face or edge shared by several hosts belongs to the first of them: the displacement is
+/// continuous there, so any host gives the same axial strain along the face.
+///
+/// # Errors
+///
+/// [`ElementError::NoHost`] naming the first point of a bar that lies in no host, [`ElementError::Input`] for
+/// an impossible bar.
+pub fn embed(
+    bars: &[Bar],
+    mesh: &Mesh,
+    host_blocks: &[&str],
+) -> Result<Vec<EmbeddedBar>, ElementError> {
+    let mut hosts = Vec::new();
+    for block in mesh.blocks() {
+        if block.kind != CellKind::Hex20 || !host_blocks.contains(&block.name.as_str()) {
+            continue;
+        }
+        for cell in block.cells() {
+            let nodes: [NodeId; 20] = std::array::from_fn(|a| cell[a]);
+            hosts.push(Host::new(nodes, &nodes.map(|n| mesh.nodes()[n])));
+        }
+    }
+    let mut elements = Vec::new();
+    for bar in bars {
+        bar.check()?;
+        let mut pieces: Vec<Piece> = Vec::new();
+        let mut travelled = 0.0;
+        for ends in bar.polyline.windows(2) {
+            let (a, b) = (Vector3::from(ends[0]), Vector3::from(ends[1]));
+            let length = (b - a).norm();
+            if length == 0.0 {
+                continue;
+            }
+            pieces.extend(cut::cut(&bar.name, a, b, travelled, &hosts)?);
+            travelled += length;
+        }
+        let mut by_host: Vec<(usize, Vec<Piece>)> = Vec::new();
+        for piece in pieces {
+            match by_host.iter_mut().find(|(h, _)| *h == piece.host) {
+                Some((_, own)) => own.push(piece),
+                None => by_host.push((piece.host, vec![piece])),
+            }
+        }
+        for (host, pieces) in by_host {
+            elements.push(EmbeddedBar::new(bar, &hosts[host], &pieces)?);
+        }
+    }
+    Ok(elements)
+}
+
+/// Gradients [1/mm] of the host's shape functions at a point [mm] inside it.
+fn gradients_at(host: &Host, point: Vector3<f64>) -> Option<[[f64; 3]; 20]> {
+    let xi = host.natural(point)?;
+    Some(hex20::map(&host.coords, xi).1)
+}

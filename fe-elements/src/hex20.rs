@@ -1,0 +1,260 @@
+//! The 20-node hexahedron with reduced or full integration.
+
+use std::sync::Arc;
+
+use fe_core::dof::Dof;
+use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
+use fe_core::kinematics::{Kinematics, Solid};
+use fe_core::material::{Material, Operator, PointContext};
+use fe_core::mesh::NodeId;
+use fe_core::shape::{hex20, quadrature};
+use nalgebra::{Matrix6, Vector3};
+
+use crate::kernel::{self, Gradients, MAX_POINTS, PAD};
+
+/// Integration rule of a hexahedron.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HexRule {
+    /// 2 x 2 x 2 Gauss points: cheap, six spurious zero-energy modes per free element.
+    Reduced,
+    /// 3 x 3 x 3 Gauss points.
+    Full,
+}
+
+impl HexRule {
+    const fn per_direction(self) -> usize {
+        match self {
+            Self::Reduced => 2,
+            Self::Full => 3,
+        }
+    }
+}
+
+/// How the crack-band width h [mm] of an element follows from its shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum BandWidth {
+    /// Cube root of the volume a point stands for.
+    CubeRoot,
+    /// factor sqrt(V/extent along the normal): sqrt(hx hy) of a box for normal z and factor 1.
+    InPlane {
+        /// Unit normal of the plane of the cracks' traces.
+        normal: [f64; 3],
+        /// Factor on the side of the equivalent square.
+        factor: f64,
+    },
+    /// The same for every point [mm].
+    Fixed(f64),
+}
+
+impl BandWidth {
+    fn of(self, coords: &[[f64; 3]; 20], volume: f64, points: usize) -> f64 {
+        match self {
+            Self::CubeRoot => (volume / points as f64).cbrt(),
+            Self::InPlane { normal, factor } => {
+                let n = Vector3::from(normal);
+                let along = coords.map(|x| n.dot(&Vector3::from(x)));
+                let extent = along.iter().fold(f64::MIN, |a, &b| a.max(b))
+                    - along.iter().fold(f64::MAX, |a, &b| a.min(b));
+                factor * (volume / extent).sqrt()
+            }
+            Self::Fixed(width) => width,
+        }
+    }
+}
+
+/// 20-node hexahedron, K = sum w B^T D B, f = sum w B^T sigma.
+#[derive(Debug)]
+pub struct Hex20 {
+    nodes: [NodeId; 20],
+    points: Vec<(Gradients, f64)>,
+    positions: Vec<[f64; 3]>,
+    band_width: f64,
+    law: Arc<dyn Material<Solid>>,
+}
+
+impl Hex20 {
+    /// An element at node coordinates `coords` [mm].
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Jacobian`] for an inverted or too distorted cell.
+    pub fn new(
+        nodes: [NodeId; 20],
+        coords: &[[f64; 3]; 20],
+        rule: HexRule,
+        law: Arc<dyn Material<Solid>>,
+        band: BandWidth,
+    ) -> Result<Self, ElementError> {
+        let mut points = Vec::new();
+        let mut positions = Vec::new();
+        for (point, (xi, w)) in quadrature::cube(rule.per_direction())
+            .into_iter()
+            .enumerate()
+        {
+            let (position, gradients, determinant) = hex20::map(coords, xi);
+            if determinant.is_nan() || determinant <= 0.0 {
+                return Err(ElementError::Jacobian { point, determinant });
+            }
+            let mut g = [[0.0; PAD]; 3];
+            for (a, d) in gradients.iter().enumerate() {
+                for k in 0..3 {
+                    g[k][a] = d[k];
+                }
+            }
+            points.push((g, w * determinant));
+            positions.push(position.into());
+        }
+        let volume: f64 = points.iter().map(|p| p.1).sum();
+        let band_width = band.of(coords, volume, points.len());
+        Ok(Self {
+            nodes,
+            points,
+            positions,
+            band_width,
+            law,
+        })
+    }
+
+    /// Volume [mm3].
+    pub fn volume(&self) -> f64 {
+        self.points.iter().map(|p| p.1).sum()
+    }
+
+    /// Crack-band width h [mm].
+    pub const fn band_width(&self) -> f64 {
+        self.band_width
+    }
+
+    const fn context(&self, ctx: &EvaluationContext) -> PointContext {
+        PointContext {
+            band_width: self.band_width,
+            operator: ctx.operator,
+            relaxation: ctx.relaxation,
+        }
+    }
+}
+
+impl Element for Hex20 {
+    fn nodes(&self) -> &[NodeId] {
+        &self.nodes
+    }
+
+    fn dofs(&self) -> &'static [Dof] {
+        &Dof::DISPLACEMENTS
+    }
+
+    fn state_len(&self) -> usize {
+        self.points.len() * self.law.state_len()
+    }
+
+    fn init_state(&self, state: &mut [f64]) {
+        let n = self.law.state_len();
+        for p in 0..self.points.len() {
+            self.law.init_state(&mut state[p * n..(p + 1) * n]);
+        }
+    }
+
+    fn evaluate(
+        &self,
+        u: &[f64],
+        committed: &[f64],
+        trial: &mut [f64],
+        ctx: &EvaluationContext,
+        out: ElementSystem<'_>,
+    ) -> Result<(), ElementError> {
+        let n = self.law.state_len();
+        let point_ctx = self.context(ctx);
+        let u = kernel::by_direction(u);
+        let mut force = [[0.0; PAD]; 3];
+        let mut tangents = [Matrix6::zeros(); MAX_POINTS];
+        for (p, (g, w)) in self.points.iter().enumerate() {
+            let range = p * n..(p + 1) * n;
+            let response = self
+                .law
+                .update(
+                    &kernel::strain(g, &u),
+                    &committed[range.clone()],
+                    &mut trial[range],
+                    &point_ctx,
+                )
+                .map_err(|source| ElementError::Material { point: p, source })?;
+            kernel::add_force(g, &response.stress, *w, &mut force);
+            tangents[p] = response.tangent;
+        }
+        for a in 0..20 {
+            for k in 0..3 {
+                out.force[3 * a + k] += force[k][a];
+            }
+        }
+        if ctx.operator != Operator::None {
+            let symmetric = !(self.unsymmetric() && ctx.operator == Operator::Tangent);
+            kernel::stiffness(
+                &self.points,
+                &tangents[..self.points.len()],
+                symmetric,
+                out.stiffness,
+            );
+        }
+        Ok(())
+    }
+
+    fn unsymmetric(&self) -> bool {
+        self.law.unsymmetric_tangent()
+    }
+
+    fn latch(&self, trial: &[f64], base: &mut [f64]) {
+        let n = self.law.state_len();
+        if n > 0 {
+            for (t, b) in trial.chunks_exact(n).zip(base.chunks_exact_mut(n)) {
+                self.law.latch(t, b);
+            }
+        }
+    }
+
+    fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
+        let n = self.law.state_len();
+        let u = kernel::by_direction(u);
+        let ctx = self.context(&EvaluationContext::frozen());
+        self.points
+            .iter()
+            .enumerate()
+            .try_fold(0.0, |sum, (p, (g, w))| {
+                let strain = kernel::strain(g, &u);
+                Some(
+                    sum + w * self
+                        .law
+                        .free_energy(&strain, &state[p * n..(p + 1) * n], &ctx)?,
+                )
+            })
+    }
+
+    fn sample(
+        &self,
+        u: &[f64],
+        state: &[f64],
+        visit: &mut dyn FnMut(PointSample<'_>),
+    ) -> Result<(), ElementError> {
+        let n = self.law.state_len();
+        let u = kernel::by_direction(u);
+        let ctx = self.context(&EvaluationContext::frozen());
+        let mut scratch = vec![0.0; n];
+        for (p, (g, w)) in self.points.iter().enumerate() {
+            let own = &state[p * n..(p + 1) * n];
+            let strain = kernel::strain(g, &u);
+            let response = self
+                .law
+                .update(&strain, own, &mut scratch, &ctx)
+                .map_err(|source| ElementError::Material { point: p, source })?;
+            visit(PointSample {
+                position: self.positions[p],
+                volume: *w,
+                strain: Solid::components(&strain),
+                stress: Solid::components(&response.stress),
+                report: self.law.report(&strain, own),
+                state_vars: self.law.state_vars(),
+                state: own,
+            });
+        }
+        Ok(())
+    }
+}
