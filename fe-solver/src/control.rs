@@ -35,6 +35,15 @@ pub struct StepControl {
     pub on_failure: OnFailure,
 }
 
+/// One attempt at a step.
+#[derive(Debug, Clone, Copy)]
+struct Plan {
+    step: usize,
+    attempt: usize,
+    length: f64,
+    last_resort: bool,
+}
+
 impl StepControl {
     /// From 0 to `end` in steps of `initial`, which may shorten to 1/64.
     pub const fn new(initial: f64, end: f64) -> Self {
@@ -97,14 +106,20 @@ impl StepControl {
             };
             attempts += 1;
             let can_shorten = 0.5 * this >= self.shortest;
-            let attempt = self.attempt(stage, driver, recorder, this, !can_shorten, step, attempts);
+            let plan = Plan {
+                step,
+                attempt: attempts,
+                length: this,
+                last_resort: !can_shorten,
+            };
+            let attempt = self.attempt(stage, driver, recorder, plan);
             match attempt {
                 Ok(attempt)
                     if attempt.converged
                         || (!can_shorten && self.on_failure == OnFailure::Flag) =>
                 {
                     let easy = attempt.converged && attempt.iterations < self.easy;
-                    let verdict = self.accept(stage, recorder, attempt, step, attempts)?;
+                    let verdict = Self::accept(stage, recorder, attempt, step, attempts)?;
                     if let Continue::Stop(reason) = verdict {
                         return Ok(reason);
                     }
@@ -151,22 +166,19 @@ impl StepControl {
         stage: &mut Stage<'_>,
         driver: &mut dyn Driver,
         recorder: &mut dyn Recorder,
-        length: f64,
-        last_resort: bool,
-        step: usize,
-        attempt: usize,
+        plan: Plan,
     ) -> Result<Attempt, SolverError> {
         let mut iteration = 0;
-        let lambda = stage.lambda() + length;
+        let lambda = stage.lambda() + plan.length;
         let result = driver.attempt(
             stage,
-            length,
+            plan.length,
             self.criterion,
-            last_resort,
+            plan.last_resort,
             &mut |residual, line_search| {
                 recorder.iteration(&IterationRecord {
-                    step,
-                    attempt,
+                    step: plan.step,
+                    attempt: plan.attempt,
                     iteration,
                     lambda,
                     residual: residual.relative,
@@ -183,7 +195,6 @@ impl StepControl {
 
     /// Measures the accepted state with the inviscid law, commits it and records it.
     fn accept(
-        &self,
         stage: &mut Stage<'_>,
         recorder: &mut dyn Recorder,
         attempt: Attempt,

@@ -120,12 +120,7 @@ impl SecantAnderson {
     }
 
     /// First iterate: one linear solve with the secant operator at the extrapolated displacement.
-    fn predict(
-        &self,
-        stage: &mut Stage<'_>,
-        step: f64,
-        relaxation: f64,
-    ) -> Result<Vec<f64>, SolverError> {
+    fn predict(stage: &mut Stage<'_>, step: f64, relaxation: f64) -> Result<Vec<f64>, SolverError> {
         let lambda = stage.lambda() + step;
         let operator = EvaluationContext {
             operator: Operator::Secant,
@@ -143,7 +138,9 @@ impl SecantAnderson {
         stage.residual(&at, lambda, &operator)?;
         stage.factorise()?;
         let mut predictor = stage.reference_load();
-        predictor.iter_mut().for_each(|q| *q *= step);
+        for q in &mut predictor {
+            *q *= step;
+        }
         let force = EvaluationContext {
             operator: Operator::None,
             relaxation,
@@ -185,7 +182,7 @@ impl Driver for SecantAnderson {
         } else {
             criterion
         };
-        let first = self.predict(stage, length, relaxation)?;
+        let first = Self::predict(stage, length, relaxation)?;
         let mut solve = self.solve(stage, first, lambda, relaxation, inner, log)?;
         let mut iterations = solve.iterations;
         let mut residual = Self::check(stage, &solve.free, lambda)?;
@@ -208,7 +205,7 @@ impl Driver for SecantAnderson {
                 };
                 stage.residual(&u, lambda, &ctx)?;
                 stage.advance();
-                free = solve.free.clone();
+                free.clone_from(&solve.free);
                 residual = Self::check(stage, &free, lambda)?;
                 if residual.relative <= criterion {
                     break;

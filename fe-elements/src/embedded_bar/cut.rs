@@ -46,7 +46,7 @@ impl Host {
         let (low, high) = (fold(f64::MAX, f64::min), fold(f64::MIN, f64::max));
         Self {
             nodes,
-            coords,
+            coords: *coords,
             affine: affine.flatten(),
             low,
             high,

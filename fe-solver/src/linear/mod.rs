@@ -175,14 +175,11 @@ impl LinearSolver for DirectSolver {
         };
         back(rhs)?;
         self.stats.solves += 1;
-        let mut check = |x: &[f64]| -> f64 {
-            self.values.multiply(pattern, x, residual);
-            for (r, b) in residual.iter_mut().zip(right.iter()) {
-                *r = b - *r;
-            }
-            norm(residual) / norm(right).max(f64::MIN_POSITIVE)
-        };
-        self.stats.last_residual = check(rhs);
+        self.values.multiply(pattern, rhs, residual);
+        for (r, b) in residual.iter_mut().zip(right.iter()) {
+            *r = b - *r;
+        }
+        self.stats.last_residual = norm(residual) / norm(right).max(f64::MIN_POSITIVE);
         if self.stats.last_residual > REFINE_ABOVE {
             back(residual)?;
             for (x, d) in rhs.iter_mut().zip(residual.iter()) {
