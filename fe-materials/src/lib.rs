@@ -1,1 +1,3 @@
-//! fe-materials
+//! Constitutive laws for reinforced concrete.
+
+pub mod concrete;
