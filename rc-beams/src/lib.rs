@@ -2,5 +2,6 @@
 
 pub mod exit;
 pub mod options;
+pub mod results;
 pub mod run;
 pub mod spec;
