@@ -176,8 +176,8 @@ impl MaterialError {
 /// - `update` reads `committed`, writes **all** of `trial`, and touches nothing else; called twice
 ///   with the same input it gives the same output.
 /// - At the same strain, from the state it has just written, it gives the same stress again.
-/// - `Operator::Tangent` is the derivative of the stress this very update returns;
-///   `Operator::Secant` is symmetric positive definite.
+/// - `Operator::Tangent` is the derivative of the stress this very update returns, once what the step
+///   [latches](Material::latch) is held; `Operator::Secant` is symmetric positive definite.
 ///
 /// [`crate::testing::check_material`] checks all of it.
 pub trait Material<K: Kinematics>: Debug + Send + Sync {

@@ -13,7 +13,7 @@ pub(super) struct Drive<'a> {
     element: &'a dyn Element,
     check: &'a ElementCheck,
     pub(super) place: Place,
-    pub(super) committed: Vec<f64>,
+    pub(super) base: Vec<f64>,
     /// Norm of the stiffness of the virgin state.
     stiffness: f64,
     n: usize,
@@ -38,12 +38,12 @@ impl<'a> Drive<'a> {
             element,
             check,
             place: Place { path, step: 0 },
-            committed: vec![f64::NAN; element.state_len()],
+            base: vec![f64::NAN; element.state_len()],
             stiffness: 0.0,
             n,
         };
-        element.init_state(&mut drive.committed);
-        finite(drive.place, &drive.committed, state_label)?;
+        element.init_state(&mut drive.base);
+        finite(drive.place, &drive.base, state_label)?;
         let virgin = drive.evaluate(&vec![0.0; n], Operator::Tangent, f64::NAN)?;
         drive.stiffness = norm(&virgin.stiffness);
         Ok(drive)
@@ -56,7 +56,7 @@ impl<'a> Drive<'a> {
         let mut answer = Answer {
             force: vec![0.0; n],
             stiffness: vec![0.0; entries],
-            state: vec![junk; self.committed.len()],
+            state: vec![junk; self.base.len()],
         };
         let ctx = EvaluationContext {
             operator,
@@ -67,7 +67,7 @@ impl<'a> Drive<'a> {
             stiffness: &mut answer.stiffness,
         };
         self.element
-            .evaluate(u, &self.committed, &mut answer.state, &ctx, out)
+            .evaluate(u, &self.base, &mut answer.state, &ctx, out)
             .map_err(|source| CheckFailure::element(self.place, source))?;
         if !answer.stiffness.is_empty() && !self.element.unsymmetric() {
             for i in 0..n {
@@ -77,6 +77,11 @@ impl<'a> Drive<'a> {
             }
         }
         Ok(answer)
+    }
+
+    /// Takes what the step latches into the base state.
+    pub(super) fn latch(&mut self, answer: &Answer) {
+        self.element.latch(&answer.state, &mut self.base);
     }
 
     /// Largest force of a motion of the virgin element, relative to stiffness times displacement.

@@ -77,10 +77,10 @@ pub enum CheckFailure {
         /// What differed between the calls.
         between: &'static str,
     },
-    /// A zero increment from the state just written changes the stress.
+    /// An update at the same strain, from the state just written or latched, changes the stress.
     #[error(
-        "{place}: {component} changes from {first} to {second} MPa by an update without strain increment \
-         (allowed {limit:.3e}); the state written is not the state the stress belongs to"
+        "{place}: {component} changes from {first} to {second} MPa by an update at the same strain \
+         {between} (allowed {limit:.3e}); that state is not the one the stress belongs to"
     )]
     Drift {
         /// Where.
@@ -91,6 +91,8 @@ pub enum CheckFailure {
         first: f64,
         /// Stress of the second update (MPa).
         second: f64,
+        /// Where the second update started.
+        between: &'static str,
         /// Allowed change (MPa).
         limit: f64,
     },

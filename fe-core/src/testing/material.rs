@@ -12,8 +12,10 @@ use crate::material::Material;
 /// - two calls, with NaN and with numbers in `trial` before, answer the same to the last bit, and all
 ///   of it finite: the law writes every state variable and reads none of them;
 /// - the stress and the new state do not depend on the operator asked for;
-/// - an update without strain increment from the state just written gives the same stress;
-/// - [`Operator::Tangent`](crate::material::Operator::Tangent) is the derivative of the stress, by central differences of this very update.
+/// - an update without strain increment, from the state just written or from the committed one with
+///   what this step [latches](Material::latch), gives the same stress;
+/// - [`Operator::Tangent`](crate::material::Operator::Tangent) is the derivative of the stress, by central differences of this very update, once
+///   what the step latches is held.
 ///   A column that disagrees is excused only where the one-sided differences disagree by more (a kink),
 ///   and the share of such steps is bounded by [`MaterialCheck::kink_share`];
 /// - [`Operator::Secant`](crate::material::Operator::Secant) is symmetric positive definite;

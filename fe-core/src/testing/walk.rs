@@ -69,9 +69,15 @@ impl<'a, K: Kinematics> Walk<'a, K> {
             .fold(0.0_f64, |m, s| m.max(s.abs()));
         self.stress = self.stress.max(largest);
         report.steps += 1;
-        report.worst_drift = report.worst_drift.max(self.drift(strain, &answer)?);
+        let again = self.update(strain, Operator::None, &answer.state, f64::NAN)?;
+        let drift = self.drift(&answer, &again, "from the state just written")?;
+        report.worst_drift = report.worst_drift.max(drift);
         report.least_pivot = report.least_pivot.min(self.secant(strain, &answer)?);
-        match self.tangent(strain, &answer)? {
+        let mut base = self.committed.clone();
+        self.law.latch(&answer.state, &mut base);
+        let latched = self.update(strain, Operator::Tangent, &base, f64::NAN)?;
+        self.drift(&answer, &latched, "after what the step latches")?;
+        match self.tangent(strain, &base, &latched)? {
             Some(error) => report.worst_tangent = report.worst_tangent.max(error),
             None => report.kinks += 1,
         }
@@ -122,9 +128,13 @@ impl<'a, K: Kinematics> Walk<'a, K> {
         Ok(first)
     }
 
-    /// Relative change of stress by an update without increment.
-    fn drift(&self, strain: &K::Vector, answer: &Answer<K>) -> Result<f64, CheckFailure> {
-        let again = self.update(strain, Operator::None, &answer.state, f64::NAN)?;
+    /// Relative change of stress from one answer at a strain to another.
+    fn drift(
+        &self,
+        answer: &Answer<K>,
+        again: &Answer<K>,
+        between: &'static str,
+    ) -> Result<f64, CheckFailure> {
         let stress = K::components(&answer.response.stress);
         let limit = self.check.drift_tolerance * self.stress;
         let mut worst = 0.0_f64;
@@ -140,6 +150,7 @@ impl<'a, K: Kinematics> Walk<'a, K> {
                     component: K::STRESS_LABELS[i],
                     first,
                     second,
+                    between,
                     limit,
                 });
             }
@@ -191,15 +202,16 @@ impl<'a, K: Kinematics> Walk<'a, K> {
         Ok(ratio(least, self.stiffness))
     }
 
-    /// Worst relative disagreement of the tangent; `None` at a kink.
+    /// Worst relative disagreement of the tangent of an update from `base`; `None` at a kink.
     fn tangent(
         &mut self,
         strain: &K::Vector,
+        base: &[f64],
         answer: &Answer<K>,
     ) -> Result<Option<f64>, CheckFailure> {
-        let (law, place, committed) = (self.law, self.place, &self.committed);
+        let (law, place) = (self.law, self.place);
         let ctx = self.check.context.with_operator(Operator::None);
-        let mut scratch = vec![0.0; committed.len()];
+        let mut scratch = vec![0.0; base.len()];
         let tangent = &answer.response.tangent;
         let scale = self.stiffness.max(norm(&entries::<K>(tangent)));
         let limit = self.check.tangent_tolerance * scale;
@@ -210,7 +222,7 @@ impl<'a, K: Kinematics> Walk<'a, K> {
             |i, j| K::entry(tangent, i, j),
             |x, out| {
                 let moved = law
-                    .update(&K::vector(x), committed, &mut scratch, &ctx)
+                    .update(&K::vector(x), base, &mut scratch, &ctx)
                     .map_err(|source| CheckFailure::material(place, source))?;
                 out.copy_from_slice(K::components(&moved.stress));
                 Ok(())
