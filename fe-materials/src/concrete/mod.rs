@@ -3,9 +3,11 @@
 //! Stress and strength in MPa, fracture energy in N/mm, tension positive, Voigt order xx, yy, zz, xy,
 //! yz, xz.
 
+mod hardening;
 mod limits;
 mod ottosen;
 mod scalars;
 
+pub use hardening::{CompressionCurve, CurvePoint};
 pub use ottosen::{Calibration, Ottosen};
 pub use scalars::ConcreteScalars;
