@@ -3,11 +3,16 @@
 //! Stress and strength in MPa, fracture energy in N/mm, tension positive, Voigt order xx, yy, zz, xy,
 //! yz, xz.
 
+mod elasticity;
 mod hardening;
+mod isochoric;
 mod limits;
 mod ottosen;
+mod plastic_state;
+mod root;
 mod scalars;
 
 pub use hardening::{CompressionCurve, CurvePoint};
+pub use isochoric::Isochoric;
 pub use ottosen::{Calibration, Ottosen};
 pub use scalars::ConcreteScalars;

@@ -134,6 +134,17 @@ impl Ottosen {
         )
     }
 
+    /// Effective stress F [MPa] and its gradient [-] with respect to three principal stresses [MPa], in any
+    /// order; kinks as in [`Ottosen::gradient`].
+    pub fn principal_gradient(&self, stress: &Vector3<f64>) -> (f64, Vector3<f64>) {
+        let q = Invariants::of_principal(stress);
+        let (f, d) = self.first_derivatives(&q);
+        let gradient = q
+            .deviator
+            .map(|s| d.i1 + d.j2 * s + d.j3 * (s * s - 2.0 / 3.0 * q.j2));
+        (f, gradient)
+    }
+
     /// F [MPa], gradient [-] and Hessian [1/MPa] with respect to three principal stresses.
     ///
     /// The Hessian is that of the smooth surface; where J2 = 0 it is undefined and zero is returned.
@@ -143,8 +154,8 @@ impl Ottosen {
     ) -> (f64, Vector3<f64>, Matrix3<f64>) {
         let q = Invariants::of_principal(stress);
         if q.hydrostatic() {
-            let (f, d) = self.first_derivatives(&q);
-            return (f, Vector3::repeat(d.i1), Matrix3::zeros());
+            let (f, gradient) = self.principal_gradient(stress);
+            return (f, gradient, Matrix3::zeros());
         }
         let (r, c) = (q.j2.sqrt(), q.cos3t());
         let lambda = self.lambda_derivatives(c);

@@ -1,0 +1,74 @@
+//! Safeguarded Newton iteration on one unknown.
+
+/// Iterations after which a root counts as not found; bisection alone needs about 60.
+const MAX_ITERATIONS: usize = 200;
+
+/// The residual of the last iterate of a search that failed.
+#[derive(Debug)]
+pub(crate) struct NoRoot {
+    pub(crate) residual: f64,
+    pub(crate) iterations: usize,
+}
+
+/// A root of f, which is continuous with f(low) >= 0 >= f(high), where |f| <= `tolerance` or the bracket
+/// has shrunk to rounding.
+///
+/// `f` returns value and derivative. A Newton step that leaves the bracket, or that did not halve |f|, is
+/// replaced by bisection.
+pub(crate) fn bracketed_root(
+    (mut low, mut high): (f64, f64),
+    start: f64,
+    tolerance: f64,
+    mut f: impl FnMut(f64) -> (f64, f64),
+) -> Result<f64, NoRoot> {
+    let mut x = start.clamp(low, high);
+    let mut previous = f64::INFINITY;
+    let mut residual = f64::NAN;
+    for _ in 0..MAX_ITERATIONS {
+        let (value, slope) = f(x);
+        residual = value;
+        if value.abs() <= tolerance || high - low <= 2.0 * f64::EPSILON * high.abs() {
+            return Ok(x);
+        }
+        if value > 0.0 {
+            low = x;
+        } else if value < 0.0 {
+            high = x;
+        } else {
+            break;
+        }
+        let newton = x - value / slope;
+        let inside = newton > low && newton < high;
+        x = if inside && value.abs() <= 0.5 * previous {
+            newton
+        } else {
+            low.midpoint(high)
+        };
+        previous = value.abs();
+    }
+    Err(NoRoot {
+        residual,
+        iterations: MAX_ITERATIONS,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    //! Protects the convergence of every return mapping.
+    use super::bracketed_root;
+
+    #[test]
+    fn smooth_kinked_and_steep_functions() {
+        let root =
+            |f: fn(f64) -> (f64, f64), start| bracketed_root((0.0, 10.0), start, 1e-13, f).unwrap();
+        assert!((root(|x| (2.0 - x * x, -2.0 * x), 10.0) - 2.0_f64.sqrt()).abs() < 1e-13);
+        // Zero slope at the start, and a kink.
+        assert!((root(|x| (2.0 - x * x, -2.0 * x), 0.0) - 2.0_f64.sqrt()).abs() < 1e-13);
+        let kink = |x: f64| if x < 1.0 { (1.0, 0.0) } else { (2.0 - x, -1.0) };
+        assert!((root(kink, 0.5) - 2.0).abs() < 1e-13);
+        // Infinite slope at the root.
+        let steep = |x: f64| ((3.0 - x).cbrt(), -1.0 / (3.0 * (3.0 - x).cbrt().powi(2)));
+        assert!((root(steep, 9.0) - 3.0).abs() < 1e-13);
+        assert!(bracketed_root((0.0, 1.0), 0.5, 0.0, |_| (f64::NAN, 0.0)).is_err());
+    }
+}
