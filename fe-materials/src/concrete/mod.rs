@@ -3,9 +3,19 @@
 //! Stress and strength in MPa, fracture energy in N/mm, tension positive, Voigt order xx, yy, zz, xy,
 //! yz, xz.
 
+mod associated;
+mod elasticity;
+mod hardening;
+mod isochoric;
 mod limits;
 mod ottosen;
+mod plastic_state;
+mod root;
 mod scalars;
+mod spectral;
 
+pub use associated::Associated;
+pub use hardening::{CompressionCurve, CurvePoint};
+pub use isochoric::Isochoric;
 pub use ottosen::{Calibration, Ottosen};
 pub use scalars::ConcreteScalars;
