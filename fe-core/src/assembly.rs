@@ -42,9 +42,9 @@ struct Slot {
 /// Result of one evaluation of a model.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Assembled {
-    /// Internal force [N] on all DOFs.
+    /// Internal force (N) on all DOFs.
     pub internal: Vec<f64>,
-    /// Stiffness [N/mm] of the free equations.
+    /// Stiffness (N/mm) of the free equations.
     pub matrix: MatrixValues,
     /// K_fc p: force on the free equations per unit rate of the prescribed pattern.
     pub coupling: Vec<f64>,

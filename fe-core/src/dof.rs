@@ -6,17 +6,17 @@ use crate::mesh::{Mesh, NodeId};
 /// A nodal degree of freedom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Dof {
-    /// Displacement along x [mm].
+    /// Displacement along x (mm).
     Ux,
-    /// Displacement along y [mm].
+    /// Displacement along y (mm).
     Uy,
-    /// Displacement along z [mm].
+    /// Displacement along z (mm).
     Uz,
-    /// Rotation about x [rad].
+    /// Rotation about x (rad).
     Rx,
-    /// Rotation about y [rad].
+    /// Rotation about y (rad).
     Ry,
-    /// Rotation about z [rad].
+    /// Rotation about z (rad).
     Rz,
 }
 

@@ -39,9 +39,9 @@ impl EvaluationContext {
 /// `n` is the number of element DOFs: nodes times DOFs per node, node-major.
 #[derive(Debug)]
 pub struct ElementSystem<'a> {
-    /// Internal force [N], `n` entries, zeroed by the caller.
+    /// Internal force (N), `n` entries, zeroed by the caller.
     pub force: &'a mut [f64],
-    /// Stiffness [N/mm], `n x n` row-major, zeroed by the caller; empty when
+    /// Stiffness (N/mm), `n x n` row-major, zeroed by the caller; empty when
     /// [`EvaluationContext::operator`] is [`Operator::None`]. A symmetric element
     /// ([`Element::unsymmetric`] false) needs to fill the upper triangle (j >= i) only.
     pub stiffness: &'a mut [f64],
@@ -50,13 +50,13 @@ pub struct ElementSystem<'a> {
 /// One integration point as seen from outside, for output, gauges and failure evidence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointSample<'a> {
-    /// Position [mm].
+    /// Position (mm).
     pub position: [f64; 3],
-    /// Volume the point stands for [mm3].
+    /// Volume the point stands for (mm3).
     pub volume: f64,
     /// Strain components, in the order of the law's kinematics.
     pub strain: &'a [f64],
-    /// Stress components [MPa].
+    /// Stress components (MPa).
     pub stress: &'a [f64],
     /// Report of the law.
     pub report: PointReport,
@@ -97,11 +97,11 @@ pub enum ElementError {
     NoHost {
         /// Name of the bar.
         bar: String,
-        /// Position of the first point without host [mm].
+        /// Position of the first point without host (mm).
         x: f64,
-        /// Position of the first point without host [mm].
+        /// Position of the first point without host (mm).
         y: f64,
-        /// Position of the first point without host [mm].
+        /// Position of the first point without host (mm).
         z: f64,
     },
     /// Some other impossible input.
@@ -142,7 +142,7 @@ pub trait Element: Debug + Send + Sync {
     /// Writes the virgin state.
     fn init_state(&self, state: &mut [f64]);
 
-    /// Internal force and, if asked, stiffness, at the element displacement `u` [mm].
+    /// Internal force and, if asked, stiffness, at the element displacement `u` (mm).
     ///
     /// # Errors
     ///
@@ -164,7 +164,7 @@ pub trait Element: Debug + Send + Sync {
     /// See [`Material::latch`](crate::material::Material::latch), for every integration point.
     fn latch(&self, _trial: &[f64], _base: &mut [f64]) {}
 
-    /// Free energy [N mm] of the element, if its law has one.
+    /// Free energy (N mm) of the element, if its law has one.
     fn free_energy(&self, _u: &[f64], _state: &[f64]) -> Option<f64> {
         None
     }
@@ -183,7 +183,7 @@ pub trait Element: Debug + Send + Sync {
         Ok(())
     }
 
-    /// Line segments to draw [mm], each with the axial stress [MPa] at `u` and `state`: bars.
+    /// Line segments to draw (mm), each with the axial stress (MPa) at `u` and `state`: bars.
     ///
     /// # Errors
     ///

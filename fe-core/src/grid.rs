@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::mesh::{CellKind, Mesh, MeshError, NodeId};
 
-/// Nodes closer than this [mm] are one.
+/// Nodes closer than this (mm) are one.
 const MERGE: f64 = 1e-6;
 
 /// Builds a mesh of hex20 boxes from grid lines; boxes whose lines coincide on a common face share the
@@ -57,7 +57,7 @@ impl GridBuilder {
         Self::default()
     }
 
-    /// Adds one cell between each pair of neighbouring lines [mm, ascending]; boxes of the same name
+    /// Adds one cell between each pair of neighbouring lines (mm, ascending); boxes of the same name
     /// form one block.
     pub fn add_box(&mut self, block: &str, x: &[f64], y: &[f64], z: &[f64]) {
         let lines = [x, y, z];

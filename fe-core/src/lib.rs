@@ -19,4 +19,5 @@ pub mod model;
 pub mod shape;
 pub mod sparsity;
 pub mod state;
+pub mod testing;
 pub mod voigt;

@@ -17,7 +17,7 @@ pub enum ModelError {
         element: usize,
         /// Its first node.
         node: NodeId,
-        /// Position of that node [mm].
+        /// Position of that node (mm).
         position: [f64; 3],
         /// What the element said.
         source: Box<ElementError>,
@@ -31,7 +31,7 @@ pub enum ModelError {
         node: NodeId,
         /// DOF.
         dof: Dof,
-        /// Position of the node [mm].
+        /// Position of the node (mm).
         position: [f64; 3],
     },
     /// A condition names a node that does not exist.
@@ -156,7 +156,7 @@ impl Conditions {
         self.prescribe(model, node, dof, 0.0)
     }
 
-    /// Moves a DOF by `rate` [mm] per unit of the load factor.
+    /// Moves a DOF by `rate` (mm) per unit of the load factor.
     ///
     /// # Errors
     ///
@@ -172,7 +172,7 @@ impl Conditions {
         Ok(())
     }
 
-    /// Adds a force [N] that acts in full throughout the stage.
+    /// Adds a force (N) that acts in full throughout the stage.
     ///
     /// # Errors
     ///
@@ -188,7 +188,7 @@ impl Conditions {
         Ok(())
     }
 
-    /// Adds a force [N] per unit of the load factor.
+    /// Adds a force (N) per unit of the load factor.
     ///
     /// # Errors
     ///
@@ -209,7 +209,7 @@ impl Conditions {
         &self.prescribed
     }
 
-    /// External force [N] on all DOFs at a load factor.
+    /// External force (N) on all DOFs at a load factor.
     pub fn external(&self, lambda: f64, out: &mut [f64]) {
         for (o, (d, r)) in out.iter_mut().zip(self.dead.iter().zip(&self.reference)) {
             *o = d + lambda * r;

@@ -1,2 +1,3 @@
-//! rc-beams
+//! The program `rc-beams`.
+
 fn main() {}

@@ -1,0 +1,13 @@
+//! The specimen file: what a beam is, in the words of the test report.
+
+mod builtin;
+mod quantity;
+mod read;
+mod reinforcement;
+mod specimen;
+
+pub use builtin::BUILTIN;
+pub use quantity::*;
+pub use read::read;
+pub use reinforcement::*;
+pub use specimen::*;
