@@ -180,6 +180,16 @@ pub trait Material<K: Kinematics>: Debug + Send + Sync {
         state.fill(0.0);
     }
 
+    /// Refuses a point the law cannot serve, before anything runs: a crack band too wide for the
+    /// softening branch, for instance. Default: every point is admitted.
+    ///
+    /// # Errors
+    ///
+    /// [`MaterialError::BandTooWide`].
+    fn admit(&self, _ctx: &PointContext) -> Result<(), MaterialError> {
+        Ok(())
+    }
+
     /// Stress and operator at a total strain, from the committed history.
     ///
     /// # Errors

@@ -78,7 +78,8 @@ impl Hex20 {
     ///
     /// # Errors
     ///
-    /// [`ElementError::Jacobian`] for an inverted or too distorted cell.
+    /// [`ElementError::Jacobian`] for an inverted or too distorted cell, [`ElementError::Material`]
+    /// when the law refuses the crack-band width.
     pub fn new(
         nodes: [NodeId; 20],
         coords: &[[f64; 3]; 20],
@@ -107,6 +108,8 @@ impl Hex20 {
         }
         let volume: f64 = points.iter().map(|p| p.1).sum();
         let band_width = band.of(coords, volume, points.len());
+        law.admit(&PointContext::new(band_width))
+            .map_err(|source| ElementError::Material { point: 0, source })?;
         Ok(Self {
             nodes,
             points,

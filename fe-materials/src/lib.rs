@@ -1,1 +1,4 @@
-//! fe-materials
+//! Constitutive laws for reinforced concrete.
+
+pub mod concrete;
+pub mod fixed_crack;

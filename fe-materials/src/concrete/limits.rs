@@ -1,0 +1,38 @@
+//! Range checks of parameters.
+
+use fe_core::material::MaterialError;
+
+/// The error of a parameter outside its range.
+pub(crate) fn out_of_range(
+    law: &'static str,
+    parameter: &'static str,
+    value: f64,
+    unit: &'static str,
+    allowed: impl Into<String>,
+    remedy: impl Into<String>,
+) -> MaterialError {
+    MaterialError::Parameter {
+        law,
+        parameter,
+        value,
+        unit,
+        allowed: allowed.into(),
+        remedy: remedy.into(),
+    }
+}
+
+/// Refuses a parameter that is not a positive finite number.
+pub(crate) fn positive(
+    law: &'static str,
+    parameter: &'static str,
+    value: f64,
+    unit: &'static str,
+) -> Result<(), MaterialError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    let remedy = "give a positive number";
+    Err(out_of_range(
+        law, parameter, value, unit, "(0, inf)", remedy,
+    ))
+}

@@ -1,0 +1,149 @@
+//! Uniaxial envelopes of the fixed-crack law, as secant moduli of a history variable.
+
+use fe_core::material::MaterialError;
+
+use super::FixedCrackParameters;
+
+/// Smallest ratio of the end of softening to the strain at cracking: keeps the softening branch
+/// from falling steeper than about five times the elastic slope.
+const MIN_SOFTENING_RATIO: f64 = 1.2;
+
+/// Share of the compressive strength that crushed concrete keeps (Nakamura and Higai 2001 use 0.1
+/// to 0.2; assumed 0.1).
+pub(super) const RESIDUAL_COMPRESSION: f64 = 0.1;
+
+/// Linear tension softening of one axis: sigma = ft (e_u - k)/(e_u - e_cr) with the crack band
+/// e_u = 2 G_F/(ft h) (Bazant and Oh 1983).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Tension {
+    strength: f64,
+    young: f64,
+    cracking: f64,
+    ultimate: f64,
+}
+
+impl Tension {
+    pub(super) fn new(
+        p: &FixedCrackParameters,
+        strength: f64,
+        band_width: f64,
+    ) -> Result<Self, MaterialError> {
+        let cracking = strength / p.young_mpa;
+        let ultimate = 2.0 * p.fracture_energy / (strength * band_width);
+        if ultimate < MIN_SOFTENING_RATIO * cracking {
+            return Err(MaterialError::BandTooWide {
+                law: super::NAME,
+                band_width,
+                limit: 2.0 * p.fracture_energy / (strength * MIN_SOFTENING_RATIO * cracking),
+                reason: "tension softening would snap back",
+            });
+        }
+        Ok(Self {
+            strength,
+            young: p.young_mpa,
+            cracking,
+            ultimate,
+        })
+    }
+
+    /// Secant modulus of the envelope at a history strain k >= 0.
+    pub(super) fn secant(&self, k: f64) -> f64 {
+        if k <= self.cracking {
+            self.young
+        } else if k >= self.ultimate {
+            0.0
+        } else {
+            self.strength * (self.ultimate - k) / ((self.ultimate - self.cracking) * k)
+        }
+    }
+
+    /// Derivative of [`Self::secant`] with respect to k.
+    pub(super) fn secant_slope(&self, k: f64) -> f64 {
+        if k <= self.cracking || k >= self.ultimate {
+            0.0
+        } else {
+            -self.strength * self.ultimate / ((self.ultimate - self.cracking) * k * k)
+        }
+    }
+}
+
+/// Compression of one axis: the curve of fib Model Code 2010, 5.1-26, up to the peak,
+/// sigma = fcm (K n - n^2)/(1 + (K - 2) n) with n = k/eps_c1 and K = E eps_c1/fcm, then a line to the
+/// residual stress over 2 G_c/(fcm h).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Compression {
+    strength: f64,
+    peak: f64,
+    plasticity: f64,
+    descent: f64,
+    young: f64,
+}
+
+impl Compression {
+    pub(super) fn new(p: &FixedCrackParameters, band_width: f64) -> Result<Self, MaterialError> {
+        let descent = 2.0 * p.crushing_energy / (p.fcm_mpa * band_width);
+        let elastic = (1.0 - RESIDUAL_COMPRESSION) * p.fcm_mpa / p.young_mpa;
+        if descent < elastic {
+            return Err(MaterialError::BandTooWide {
+                law: super::NAME,
+                band_width,
+                limit: 2.0 * p.crushing_energy / (p.fcm_mpa * elastic),
+                reason: "compression softening would snap back",
+            });
+        }
+        Ok(Self {
+            strength: p.fcm_mpa,
+            peak: p.eps_c1,
+            plasticity: p.young_mpa * p.eps_c1 / p.fcm_mpa,
+            descent,
+            young: p.young_mpa,
+        })
+    }
+
+    /// Stress magnitude and its slope at a compressive strain k >= 0.
+    fn envelope(&self, k: f64) -> (f64, f64) {
+        let n = k / self.peak;
+        if n <= 1.0 {
+            let c = self.plasticity;
+            let bottom = 1.0 + (c - 2.0) * n;
+            let stress = self.strength * (c * n - n * n) / bottom;
+            let slope = self.strength / self.peak
+                * ((c - 2.0 * n) * bottom - (c * n - n * n) * (c - 2.0))
+                / (bottom * bottom);
+            return (stress, slope);
+        }
+        let share = (k - self.peak) / self.descent;
+        if share >= 1.0 {
+            (RESIDUAL_COMPRESSION * self.strength, 0.0)
+        } else {
+            let drop = 1.0 - RESIDUAL_COMPRESSION;
+            (
+                self.strength * (1.0 - drop * share),
+                -self.strength * drop / self.descent,
+            )
+        }
+    }
+
+    /// Secant modulus of the envelope at a history strain k >= 0.
+    pub(super) fn secant(&self, k: f64) -> f64 {
+        if k <= 0.0 {
+            self.young
+        } else {
+            self.envelope(k).0 / k
+        }
+    }
+
+    /// Derivative of [`Self::secant`] with respect to k.
+    pub(super) fn secant_slope(&self, k: f64) -> f64 {
+        if k <= 1e-12 {
+            return 0.0;
+        }
+        let (stress, slope) = self.envelope(k);
+        (slope - stress / k) / k
+    }
+
+    /// Consumed share of the descending branch.
+    pub(super) fn crushing(&self, k: f64) -> f64 {
+        ((k - self.peak) / self.descent).clamp(0.0, 1.0)
+    }
+}

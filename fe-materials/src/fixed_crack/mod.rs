@@ -1,0 +1,336 @@
+//! Fixed orthogonal smeared cracks with history-based shear transfer: the default law of the beams.
+//!
+//! **Uncracked**, the law is isotropic. With the equivalent uniaxial strains
+//! e~_i = sum_j Q_ij e_j, Q = C(E, nu)/E, of the principal strains,
+//!
+//! sigma_i = E e~_i for e~_i >= 0,  sigma_i = Ec(kc_i) e~_i for e~_i < 0,
+//!
+//! Ec being the secant of the compression envelope at kc_i, the largest compressive e~_i ever.
+//!
+//! **Onset.** A crack opens when sigma_1 >= ft, or when the Ottosen surface is reached with
+//! sigma_1 >= ft/2 (CEB Bulletin 156). The principal axes then freeze, and Poisson's ratio is zero.
+//!
+//! **Cracked**, in the frozen axes, with the histories kt_i = max e_i and kc_i = max(-e_i),
+//!
+//! sigma_i = Et(kt_i) e_i for e_i >= 0,  Ec(kc_i) e_i for e_i < 0,
+//! tau_ij = b_ij G0 gamma_ij,  b_ij = max(b_min, min over the two axes of min(Et(kt), Ec(kc))/E).
+//!
+//! The shear factor follows from the history only and never recovers when a crack closes (damage-based
+//! shear retention as in DIANA, made irreversible): every term of the free energy
+//! psi = 1/2 sum Esec_i e_i^2 + 1/2 sum b_ij G0 gamma_ij^2 falls with growing history at fixed strain, so
+//! the cracked law never creates energy. Taking b from the current secant instead would: when a crack
+//! closes the factor jumps back to one with a large shear strain standing.
+//!
+//! The growth of kt and kc in a step is scaled by the relaxation a of the context (backward Euler of
+//! k' = <e - k>/tau, a = dt/(tau + dt)).
+
+mod cracked;
+mod curves;
+mod uncracked;
+
+#[cfg(test)]
+mod tests;
+
+use fe_core::kinematics::Solid;
+use fe_core::material::{
+    Material, MaterialError, Operator, PointContext, PointReport, Response, StateVar,
+};
+use fe_core::voigt::strain_transform;
+use nalgebra::{Matrix3, Vector3, Vector6};
+
+use curves::{Compression, Tension};
+
+const NAME: &str = "fixed crack";
+
+/// Smallest modulus of the secant operator, relative to E: keeps the operator positive definite where the
+/// envelope has dropped to zero. It does not enter the stress.
+const OPERATOR_FLOOR: f64 = 1e-4;
+
+/// Parameters of [`FixedCrack`]; N, mm, MPa.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FixedCrackParameters {
+    /// Young's modulus E [MPa].
+    pub young_mpa: f64,
+    /// Poisson's ratio before cracking [-].
+    pub poisson: f64,
+    /// Mean compressive strength fcm [MPa].
+    pub fcm_mpa: f64,
+    /// Tensile strength ft [MPa].
+    pub ft_mpa: f64,
+    /// Strain at the compressive strength, positive [-].
+    pub eps_c1: f64,
+    /// Fracture energy G_F [N/mm].
+    pub fracture_energy: f64,
+    /// Crushing energy G_c [N/mm].
+    pub crushing_energy: f64,
+    /// Floor b_min of the shear factor of open cracks [-]; assumed, and without influence on beams whose
+    /// bars have dowel action between 1e-5 and 1e-3.
+    pub shear_floor: f64,
+}
+
+impl FixedCrackParameters {
+    /// Parameters from a mean cylinder strength and a measured modulus.
+    ///
+    /// eps_c1 = 0.0021 + 1.2e-5 (fcm - 28)+ (fit of fib Model Code 2010, table 5.1-8);
+    /// G_F = 0.073 fcm^0.18 (fib Model Code 2010, 5.1-9); G_c = 250 G_F (Nakamura and Higai 2001).
+    pub fn from_strength(fcm_mpa: f64, ft_mpa: f64, young_mpa: f64) -> Self {
+        let fracture_energy = 0.073 * fcm_mpa.powf(0.18);
+        Self {
+            young_mpa,
+            poisson: 0.2,
+            fcm_mpa,
+            ft_mpa,
+            eps_c1: 0.0021 + 1.2e-5 * (fcm_mpa - 28.0).max(0.0),
+            fracture_energy,
+            crushing_energy: 250.0 * fracture_energy,
+            shear_floor: 1e-4,
+        }
+    }
+
+    fn check(&self) -> Result<(), MaterialError> {
+        let positive = [
+            ("young_mpa", self.young_mpa, "MPa"),
+            ("fcm_mpa", self.fcm_mpa, "MPa"),
+            ("ft_mpa", self.ft_mpa, "MPa"),
+            ("eps_c1", self.eps_c1, "-"),
+            ("fracture_energy", self.fracture_energy, "N/mm"),
+            ("crushing_energy", self.crushing_energy, "N/mm"),
+        ];
+        for (parameter, value, unit) in positive {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(out_of_range(parameter, value, unit, "(0, inf)"));
+            }
+        }
+        if !(0.0..0.5).contains(&self.poisson) {
+            return Err(out_of_range("poisson", self.poisson, "-", "[0, 0.5)"));
+        }
+        if !(self.shear_floor > 0.0 && self.shear_floor <= 1.0) {
+            return Err(out_of_range("shear_floor", self.shear_floor, "-", "(0, 1]"));
+        }
+        let plasticity = self.young_mpa * self.eps_c1 / self.fcm_mpa;
+        if plasticity <= 1.0 {
+            return Err(MaterialError::Parameter {
+                law: NAME,
+                parameter: "eps_c1",
+                value: self.eps_c1,
+                unit: "-",
+                allowed: format!("more than fcm/E = {:.5}", self.fcm_mpa / self.young_mpa),
+                remedy:
+                    "the peak of the compression curve must lie beyond the elastic strain; raise \
+                         E or eps_c1, or lower fcm"
+                        .into(),
+            });
+        }
+        Ok(())
+    }
+}
+
+fn out_of_range(
+    parameter: &'static str,
+    value: f64,
+    unit: &'static str,
+    allowed: &str,
+) -> MaterialError {
+    MaterialError::Parameter {
+        law: NAME,
+        parameter,
+        value,
+        unit,
+        allowed: allowed.into(),
+        remedy: "give a value in that range".into(),
+    }
+}
+
+/// The fixed-crack law, see the [module documentation](self).
+#[derive(Debug, Clone, PartialEq)]
+pub struct FixedCrack {
+    p: FixedCrackParameters,
+    shear_modulus: f64,
+    onset: Option<crate::concrete::Ottosen>,
+}
+
+/// Internal variables; see [`State`].
+const STATE_VARS: [StateVar; 6] = [
+    StateVar::scalar("cracked", "-"),
+    StateVar::vector("crack_axes", "-", 9),
+    StateVar::vector("kappa_t", "-", 3),
+    StateVar::vector("kappa_c", "-", 3),
+    StateVar::scalar("onset_stress", "MPa"),
+    StateVar::scalar("crushing", "-"),
+];
+
+/// Typed view of the internal variables.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct State {
+    cracked: bool,
+    /// Columns are the frozen axes n, s, t.
+    axes: Matrix3<f64>,
+    /// Largest tensile strain per axis.
+    kt: [f64; 3],
+    /// Largest compressive strain per axis (cracked) or principal rank (uncracked).
+    kc: [f64; 3],
+    /// Tensile strength of the first axis: sigma_1 at onset [MPa].
+    onset: f64,
+    /// Largest consumed share of the descending branch in compression.
+    crushing: f64,
+}
+
+impl State {
+    fn read(s: &[f64]) -> Self {
+        Self {
+            cracked: s[0] > 0.5,
+            axes: Matrix3::from_column_slice(&s[1..10]),
+            kt: [s[10], s[11], s[12]],
+            kc: [s[13], s[14], s[15]],
+            onset: s[16],
+            crushing: s[17],
+        }
+    }
+
+    fn write(&self, s: &mut [f64]) {
+        s[0] = if self.cracked { 1.0 } else { 0.0 };
+        s[1..10].copy_from_slice(self.axes.as_slice());
+        s[10..13].copy_from_slice(&self.kt);
+        s[13..16].copy_from_slice(&self.kc);
+        s[16] = self.onset;
+        s[17] = self.crushing;
+    }
+}
+
+impl FixedCrack {
+    /// A law with Rankine onset and, where `onset` is given, Ottosen onset.
+    ///
+    /// # Errors
+    ///
+    /// [`MaterialError::Parameter`].
+    pub fn new(
+        p: FixedCrackParameters,
+        onset: Option<crate::concrete::Ottosen>,
+    ) -> Result<Self, MaterialError> {
+        p.check()?;
+        Ok(Self {
+            p,
+            shear_modulus: p.young_mpa / (2.0 * (1.0 + p.poisson)),
+            onset,
+        })
+    }
+
+    /// The parameters.
+    pub const fn parameters(&self) -> &FixedCrackParameters {
+        &self.p
+    }
+
+    /// Strains per axis from which softening starts.
+    fn strains_at_onset(&self, onset: f64) -> [f64; 3] {
+        let other = self.p.ft_mpa / self.p.young_mpa;
+        [onset / self.p.young_mpa, other, other]
+    }
+
+    fn envelopes(
+        &self,
+        state: &State,
+        band_width: f64,
+    ) -> Result<([Tension; 3], Compression), MaterialError> {
+        let other = Tension::new(&self.p, self.p.ft_mpa, band_width)?;
+        let first = if state.onset == self.p.ft_mpa {
+            other
+        } else {
+            Tension::new(&self.p, state.onset, band_width)?
+        };
+        Ok((
+            [first, other, other],
+            Compression::new(&self.p, band_width)?,
+        ))
+    }
+}
+
+impl Material<Solid> for FixedCrack {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn state_vars(&self) -> &[StateVar] {
+        &STATE_VARS
+    }
+
+    fn update(
+        &self,
+        strain: &Vector6<f64>,
+        committed: &[f64],
+        trial: &mut [f64],
+        ctx: &PointContext,
+    ) -> Result<Response<Solid>, MaterialError> {
+        if let Some(component) = strain.iter().position(|e| !e.is_finite()) {
+            return Err(MaterialError::NotFinite {
+                law: NAME,
+                component,
+            });
+        }
+        let mut state = State::read(committed);
+        let response = if state.cracked {
+            self.cracked(strain, &mut state, ctx, false)?
+        } else {
+            match self.uncracked(strain, &mut state, ctx)? {
+                Some(response) => response,
+                None => self.cracked(strain, &mut state, ctx, true)?,
+            }
+        };
+        state.write(trial);
+        Ok(response)
+    }
+
+    fn admit(&self, ctx: &PointContext) -> Result<(), MaterialError> {
+        Tension::new(&self.p, self.p.ft_mpa, ctx.band_width)?;
+        Compression::new(&self.p, ctx.band_width)?;
+        Ok(())
+    }
+
+    fn unsymmetric_tangent(&self) -> bool {
+        true
+    }
+
+    fn latch(&self, trial: &[f64], base: &mut [f64]) {
+        let (found, mut kept) = (State::read(trial), State::read(base));
+        if found.cracked && !kept.cracked {
+            kept.cracked = true;
+            kept.axes = found.axes;
+            kept.onset = found.onset;
+            kept.kt = self.strains_at_onset(found.onset);
+            kept.write(base);
+        }
+    }
+
+    fn free_energy(&self, strain: &Vector6<f64>, state: &[f64], ctx: &PointContext) -> Option<f64> {
+        let state = State::read(state);
+        state
+            .cracked
+            .then(|| self.cracked_energy(strain, &state, ctx))
+            .flatten()
+    }
+
+    fn report(&self, strain: &Vector6<f64>, state: &[f64]) -> PointReport {
+        let state = State::read(state);
+        let crushing = state.crushing;
+        if !state.cracked {
+            return PointReport {
+                crushing,
+                ..PointReport::default()
+            };
+        }
+        let local = strain_transform(&state.axes) * strain;
+        let opening: Vector3<f64> =
+            local.fixed_rows::<3>(0) - Vector3::from(self.strains_at_onset(state.onset));
+        let (axis, crack_strain) = opening.argmax();
+        PointReport {
+            crack_strain: crack_strain.max(0.0),
+            crack_normal: state.axes.column(axis).into_owned().into(),
+            crushing,
+            ..PointReport::default()
+        }
+    }
+}
+
+/// Whether the operator is the secant one.
+fn wants_secant(ctx: &PointContext) -> bool {
+    ctx.operator == Operator::Secant
+}

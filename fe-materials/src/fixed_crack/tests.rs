@@ -1,0 +1,160 @@
+//! Protects what the beams rely on: energies, envelopes, irreversible shear factor, latching, refusals.
+
+use fe_core::material::{Material, MaterialError, Operator, PointContext};
+use nalgebra::Vector6;
+
+use super::{FixedCrack, FixedCrackParameters};
+use crate::concrete::{Calibration, Ottosen};
+
+const WIDTH: f64 = 30.0;
+
+fn parameters() -> FixedCrackParameters {
+    FixedCrackParameters::from_strength(38.0, 2.9, 33_000.0)
+}
+
+fn law(poisson: f64) -> FixedCrack {
+    let p = FixedCrackParameters {
+        poisson,
+        ..parameters()
+    };
+    let onset = Ottosen::new(&Calibration::model_code(p.fcm_mpa, p.ft_mpa)).unwrap();
+    FixedCrack::new(p, Some(onset)).unwrap()
+}
+
+/// A point that is driven through strains.
+struct Point {
+    law: FixedCrack,
+    state: Vec<f64>,
+}
+
+impl Point {
+    fn new(law: FixedCrack) -> Self {
+        let mut state = vec![0.0; law.state_len()];
+        law.init_state(&mut state);
+        Self { law, state }
+    }
+
+    fn stress(&mut self, strain: Vector6<f64>) -> Vector6<f64> {
+        let mut trial = vec![0.0; self.state.len()];
+        let ctx = PointContext::new(WIDTH).with_operator(Operator::None);
+        let response = self
+            .law
+            .update(&strain, &self.state, &mut trial, &ctx)
+            .unwrap();
+        self.state = trial;
+        response.stress
+    }
+
+    fn energy(&self, strain: &Vector6<f64>) -> f64 {
+        let ctx = PointContext::new(WIDTH);
+        self.law.free_energy(strain, &self.state, &ctx).unwrap()
+    }
+}
+
+fn axial(e: f64) -> Vector6<f64> {
+    Vector6::new(e, 0.0, 0.0, 0.0, 0.0, 0.0)
+}
+
+/// Crack band (Bazant and Oh 1983): opening a crack fully dissipates G_F/h.
+#[test]
+fn a_crack_dissipates_the_fracture_energy() {
+    let p = parameters();
+    let mut point = Point::new(law(0.0));
+    let end = 2.0 * p.fracture_energy / (p.ft_mpa * WIDTH);
+    let steps = 40_000;
+    let (mut work, mut last) = (0.0, 0.0);
+    for i in 1..=steps {
+        let s = point.stress(axial(1.01 * end * f64::from(i) / f64::from(steps)))[0];
+        work += 0.5 * (s + last) * 1.01 * end / f64::from(steps);
+        last = s;
+    }
+    assert!(last.abs() < 1e-12);
+    assert!((work * WIDTH / p.fracture_energy - 1.0).abs() < 1e-6);
+}
+
+/// fib Model Code 2010, 5.1-26: the curve in compression, peak -fcm at -eps_c1; crushing then is counted.
+#[test]
+fn compression_follows_the_model_code_to_its_peak() {
+    let p = parameters();
+    let k = p.young_mpa * p.eps_c1 / p.fcm_mpa;
+    let mut point = Point::new(law(0.0));
+    for i in 1..=20 {
+        let n = f64::from(i) / 20.0;
+        let s = point.stress(axial(-n * p.eps_c1))[0];
+        let expected = -p.fcm_mpa * (k * n - n * n) / (1.0 + (k - 2.0) * n);
+        assert!((s - expected).abs() < 1e-10);
+    }
+    let report = |point: &Point, e: f64| point.law.report(&axial(e), &point.state);
+    assert_eq!(report(&point, -p.eps_c1).crushing, 0.0);
+    point.stress(axial(-4.0 * p.eps_c1));
+    assert!(report(&point, -4.0 * p.eps_c1).crushing > 0.0);
+}
+
+/// With a shear factor from the current secant a closing crack would regain its shear stiffness with the
+/// shear strain standing: a jump of G0 gamma = 27 MPa here.
+#[test]
+fn a_closing_crack_keeps_its_shear_factor() {
+    let mut point = Point::new(law(0.2));
+    point.stress(axial(1.5e-3));
+    let sheared = |e: f64| Vector6::new(e, 0.0, 0.0, 2e-3, 0.0, 0.0);
+    let open = point.stress(sheared(1.5e-3))[3];
+    let before = point.energy(&sheared(1.5e-3));
+    let closed = point.stress(sheared(-1e-5))[3];
+    let after = point.energy(&sheared(-1e-5));
+    assert!(open > 0.0);
+    assert!((closed - open).abs() < 1e-12);
+    assert!(after <= before, "{after} {before}");
+}
+
+/// A new crack found by an iteration keeps its axes for the rest of the step; its growth is not kept.
+#[test]
+fn latching_keeps_axes_but_not_growth() {
+    let law = law(0.2);
+    let n = law.state_len();
+    let (mut base, mut trial) = (vec![0.0; n], vec![0.0; n]);
+    law.init_state(&mut base);
+    let ctx = PointContext::new(WIDTH);
+    let strain = Vector6::new(5e-4, -1e-4, 0.0, 3e-4, 0.0, 0.0);
+    law.update(&strain, &base, &mut trial, &ctx).unwrap();
+    law.latch(&trial, &mut base);
+    let found = law.report(&strain, &trial);
+    assert!(found.crack_strain > 1e-4);
+    let smaller = 0.3 * strain;
+    let mut second = vec![0.0; n];
+    law.update(&smaller, &base, &mut second, &ctx).unwrap();
+    assert_eq!(
+        law.report(&smaller, &second).crack_normal,
+        found.crack_normal
+    );
+    let onset = parameters().ft_mpa / parameters().young_mpa;
+    assert!((base[10] - onset).abs() < 1e-15, "kappa_t at onset only");
+}
+
+/// Impossible input is an error that names parameter and remedy, before anything runs.
+#[test]
+fn impossible_parameters_and_bands_are_refused() {
+    let bad = [
+        FixedCrackParameters {
+            ft_mpa: -1.0,
+            ..parameters()
+        },
+        FixedCrackParameters {
+            poisson: 0.5,
+            ..parameters()
+        },
+        FixedCrackParameters {
+            eps_c1: 1e-4,
+            ..parameters()
+        },
+    ];
+    for p in bad {
+        let error = FixedCrack::new(p, None).unwrap_err();
+        assert!(matches!(error, MaterialError::Parameter { .. }), "{error}");
+    }
+    let limit = match law(0.2).admit(&PointContext::new(1e4)) {
+        Err(MaterialError::BandTooWide { limit, .. }) => limit,
+        other => panic!("{other:?}"),
+    };
+    assert!(law(0.2).admit(&PointContext::new(0.999 * limit)).is_ok());
+    assert!(law(0.2).admit(&PointContext::new(1.001 * limit)).is_err());
+}

@@ -1,0 +1,111 @@
+//! The isotropic branch and the onset of the first crack.
+
+use fe_core::kinematics::Solid;
+use fe_core::material::{MaterialError, Operator, PointContext, Response};
+use fe_core::voigt::{principal, strain_tensor, strain_transform};
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+use super::curves::Compression;
+use super::{FixedCrack, OPERATOR_FLOOR, State, wants_secant};
+
+impl FixedCrack {
+    /// Stress of the uncracked point, or `None` when a crack opens: the state then holds its axes.
+    pub(super) fn uncracked(
+        &self,
+        strain: &Vector6<f64>,
+        state: &mut State,
+        ctx: &PointContext,
+    ) -> Result<Option<Response<Solid>>, MaterialError> {
+        let compression = Compression::new(&self.p, ctx.band_width)?;
+        let (e, axes) = principal(&strain_tensor(strain));
+        let nu = self.p.poisson;
+        let (q1, q2) = (
+            (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+            nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+        );
+        let equivalent: Vector3<f64> = e.map(|ei| (q1 - q2) * ei) + Vector3::repeat(q2 * e.sum());
+        let committed_kc = state.kc;
+        let mut secant = [0.0; 3];
+        let mut slope = [0.0; 3];
+        for i in 0..3 {
+            let c = equivalent[i];
+            let excess = -c - committed_kc[i];
+            state.kc[i] = committed_kc[i] + ctx.relaxation * excess.max(0.0);
+            if c >= 0.0 {
+                secant[i] = self.p.young_mpa;
+                slope[i] = self.p.young_mpa;
+            } else {
+                secant[i] = compression.secant(state.kc[i]);
+                let growth = if excess > 0.0 { ctx.relaxation } else { 0.0 };
+                // d(secant c)/dc with dkc/dc = -a.
+                slope[i] = secant[i] - growth * compression.secant_slope(state.kc[i]) * c;
+            }
+        }
+        let stress = Vector3::from_fn(|i, _| secant[i] * equivalent[i]);
+        if let Some(onset) = self.onset_stress(&stress) {
+            state.cracked = true;
+            state.axes = axes;
+            state.onset = onset;
+            state.kt = self.strains_at_onset(onset);
+            state.kc = committed_kc;
+            return Ok(None);
+        }
+        for k in state.kc {
+            state.crushing = state.crushing.max(compression.crushing(k));
+        }
+        let t = strain_transform(&axes);
+        let mut local = Vector6::zeros();
+        local.fixed_rows_mut::<3>(0).copy_from(&stress);
+        let sigma = t.tr_mul(&local);
+        let mut tangent = Matrix6::zeros();
+        if ctx.operator != Operator::None {
+            let mut d = Matrix6::zeros();
+            for i in 0..3 {
+                for j in 0..3 {
+                    let q = if i == j { q1 } else { q2 };
+                    d[(i, j)] = if wants_secant(ctx) {
+                        let floor = OPERATOR_FLOOR * self.p.young_mpa;
+                        (secant[i].max(floor) * secant[j].max(floor)).sqrt() * q
+                    } else {
+                        slope[i] * q
+                    };
+                }
+            }
+            for (k, (i, j)) in [(0, 1), (1, 2), (0, 2)].into_iter().enumerate() {
+                let gap = e[i] - e[j];
+                let scale = e.amax().max(1e-12);
+                // Rotation of the axes: (s_i - s_j)/(2 (e_i - e_j)), its limit for equal strains.
+                let g = if gap.abs() > 1e-6 * scale {
+                    (stress[i] - stress[j]) / (2.0 * gap)
+                } else {
+                    0.5 * (q1 - q2) * slope[i].midpoint(slope[j])
+                };
+                d[(3 + k, 3 + k)] = if wants_secant(ctx) {
+                    g.max(OPERATOR_FLOOR * self.shear_modulus)
+                } else {
+                    g
+                };
+            }
+            tangent = t.tr_mul(&d) * t;
+        }
+        Ok(Some(Response {
+            stress: sigma,
+            tangent,
+        }))
+    }
+
+    /// Stress sigma_1 at which a crack opens, if it does.
+    fn onset_stress(&self, stress: &Vector3<f64>) -> Option<f64> {
+        let ft = self.p.ft_mpa;
+        let largest = stress[0].max(stress[1]).max(stress[2]);
+        if largest >= ft {
+            return Some(ft);
+        }
+        let ottosen = self.onset.as_ref()?;
+        if largest < 0.5 * ft {
+            return None;
+        }
+        let sigma = Vector6::new(stress[0], stress[1], stress[2], 0.0, 0.0, 0.0);
+        (ottosen.effective_stress(&sigma) >= self.p.fcm_mpa).then_some(largest)
+    }
+}
