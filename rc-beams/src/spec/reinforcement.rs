@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::quantity::{
     BarArea, BarDiameter, Coordinate, HardeningRatio, Spacing, SteelModulus, SteelStrength,
 };
+use super::specimen::Span;
 
 /// Slack when the last stirrup of a zone is compared with its end [mm].
 const TOLERANCE: f64 = 1e-6;
@@ -168,5 +169,17 @@ impl Stirrups {
             .iter()
             .filter(holds)
             .any(|z| z.stirrups.is_some())
+    }
+
+    /// Distances between the stirrups of the zones that overlap a span [mm].
+    pub fn spacings(&self, span: &Span) -> Vec<f64> {
+        let (from, to) = (span.x_from_mm.get(), span.x_to_mm.get());
+        let overlaps = |z: &&Zone| z.x_from_mm.get() < to && z.x_to_mm.get() > from;
+        let rows = self
+            .zones
+            .iter()
+            .filter(overlaps)
+            .filter_map(|z| z.stirrups.as_ref());
+        rows.map(|row| row.spacing_mm.get()).collect()
     }
 }
