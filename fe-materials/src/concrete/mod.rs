@@ -3,14 +3,14 @@
 //! Stress and strength in MPa, fracture energy in N/mm, tension positive, Voigt order xx, yy, zz, xy,
 //! yz, xz.
 
-mod elasticity;
 mod hardening;
 mod isochoric;
-mod limits;
 mod ottosen;
 mod plastic_state;
 mod root;
 mod scalars;
+
+use crate::{elasticity, limits};
 
 pub use hardening::{CompressionCurve, CurvePoint};
 pub use isochoric::Isochoric;
