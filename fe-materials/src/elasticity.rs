@@ -2,7 +2,7 @@
 
 use fe_core::material::MaterialError;
 use fe_core::voigt::isotropic;
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::{Matrix3, Matrix6, Vector6};
 
 use crate::limits::{out_of_range, positive};
 
@@ -47,6 +47,25 @@ impl Elasticity {
                 self.shear * strain[i]
             }
         })
+    }
+
+    /// Strain of a Voigt stress [MPa].
+    pub(crate) fn strain(&self, stress: &Vector6<f64>) -> Vector6<f64> {
+        let mean = (stress[0] + stress[1] + stress[2]) / 3.0;
+        Vector6::from_fn(|i, _| {
+            if i < 3 {
+                mean / (3.0 * self.bulk) + (stress[i] - mean) / (2.0 * self.shear)
+            } else {
+                stress[i] / self.shear
+            }
+        })
+    }
+
+    /// Compliance of the principal strains, 3 x 3 [1/MPa].
+    pub(crate) fn principal_compliance(&self) -> Matrix3<f64> {
+        let shear = 0.5 / self.shear;
+        let volume = (1.0 / (3.0 * self.bulk) - shear) / 3.0;
+        Matrix3::repeat(volume) + Matrix3::identity() * shear
     }
 
     /// Energy density 1/2 eps : D : eps [MPa] of an elastic Voigt strain.

@@ -20,7 +20,7 @@ const LAW: &str = "isochoric Ottosen plasticity";
 const YIELD_TOLERANCE: f64 = 1e-11;
 
 /// Tolerance of the return, relative to fcm.
-const RETURN_TOLERANCE: f64 = 1e-12;
+const RETURN_TOLERANCE: f64 = 2e-13;
 
 /// Plasticity with the Ottosen surface on the compressive part of the stress and isochoric flow.
 ///
@@ -136,13 +136,9 @@ impl Isochoric {
             let rho = flow.rho(point.kappa - committed.kappa);
             let (f, gradient) = self.clipped_gradient(&flow.principal(rho));
             let slope = -gradient.dot(&flow.deviator) * point.kappa_slope / flow.full;
-            (f - point.stress, slope - point.stress_slope)
+            Ok((f - point.stress, slope - point.stress_slope))
         })
-        .map_err(|e| MaterialError::Return {
-            law: LAW,
-            residual: e.residual / fcm,
-            iterations: e.iterations,
-        })?;
+        .map_err(|failure| failure.of(LAW, fcm))?;
         let point = curve.at(eta);
         let increment = point.kappa - committed.kappa;
         let rho = flow.rho(increment);
