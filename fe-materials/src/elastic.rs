@@ -11,7 +11,7 @@ const LAW: &str = "isotropic elasticity";
 
 /// Isotropic linear elasticity, for a solid, for plane stress and for a bar.
 ///
-/// $$ \sigma = D\,\varepsilon, \qquad D_{solid} = \lambda\,1 \otimes 1 + 2G\,I, \qquad
+/// $$ \sigma = D \varepsilon, \qquad D_{solid} = \lambda \mathbf{1} \otimes \mathbf{1} + 2G I, \qquad
 /// D_{plane} = \frac{E}{1-\nu^2} \begin{pmatrix} 1 & \nu & 0 \cr \nu & 1 & 0 \cr
 /// 0 & 0 & (1-\nu)/2 \end{pmatrix}, \qquad D_{bar} = E. $$
 ///

@@ -16,16 +16,16 @@ const LAW: &str = "von Mises plasticity";
 ///
 /// With the deviator s, q = sqrt(3 J2), and kappa the equivalent plastic strain:
 ///
-/// $$ q \le \sigma_y + H\kappa, \qquad \dot\varepsilon_p = \dot\kappa\,\frac{3}{2}\frac{s}{q}. $$
+/// $$ q \le \sigma_y + H\kappa, \qquad \dot\varepsilon_p = \dot\kappa \frac{3}{2}\frac{s}{q}. $$
 ///
 /// Backward Euler is a radial return in closed form,
 ///
-/// $$ \Delta\kappa = \frac{q_{tr} - \sigma_y - H\kappa_n}{3G + H}, \qquad s = \rho\,s_{tr}, \qquad
-/// \rho = 1 - \frac{3G\,\Delta\kappa}{q_{tr}}, $$
+/// $$ \Delta\kappa = \frac{q_{tr} - \sigma_y - H\kappa_n}{3G + H}, \qquad s = \rho s_{tr}, \qquad
+/// \rho = 1 - \frac{3G \Delta\kappa}{q_{tr}}, $$
 ///
 /// with the consistent tangent, n = s_tr/|s_tr|,
 ///
-/// $$ D_{ep} = K\,1 \otimes 1 + 2G\rho\,P_{dev} - 2G\left(\frac{3G}{3G + H} - 1 + \rho\right)
+/// $$ D_{ep} = K \mathbf{1} \otimes \mathbf{1} + 2G \rho P_{dev} - 2G\left(\frac{3G}{3G + H} - 1 + \rho\right)
 /// n \otimes n. $$
 ///
 /// The secant operator is the elastic stiffness. The free energy (1/2) eps_e . D eps_e + (1/2) H kappa^2
