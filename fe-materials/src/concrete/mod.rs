@@ -4,15 +4,15 @@
 //! yz, xz.
 
 mod associated;
-mod elasticity;
 mod hardening;
 mod isochoric;
-mod limits;
 mod ottosen;
 mod plastic_state;
 mod root;
 mod scalars;
 mod spectral;
+
+use crate::{elasticity, limits};
 
 pub use associated::Associated;
 pub use hardening::{CompressionCurve, CurvePoint};

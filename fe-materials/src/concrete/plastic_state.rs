@@ -1,38 +1,11 @@
-//! Internal variables of the plastic laws.
+//! What the plastic laws of concrete show of their state.
 
-use fe_core::material::{PointReport, StateVar};
-use nalgebra::Vector6;
+use fe_core::material::PointReport;
 
 use super::CompressionCurve;
-
-/// Internal variables of a plastic law, in the order of its state slice.
-pub(crate) const PLASTIC_VARS: [StateVar; 2] = [
-    StateVar::vector("plastic_strain", "-", 6),
-    StateVar::scalar("kappa", "-"),
-];
-
-/// Plastic strain and hardening variable.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct PlasticState {
-    /// Plastic strain, Voigt with engineering shear [-].
-    pub(crate) strain: Vector6<f64>,
-    /// Equivalent plastic strain kappa [-].
-    pub(crate) kappa: f64,
-}
+pub(crate) use crate::plastic_state::{PLASTIC_VARS, PlasticState};
 
 impl PlasticState {
-    pub(crate) fn read(state: &[f64]) -> Self {
-        Self {
-            strain: Vector6::from_column_slice(&state[..6]),
-            kappa: state[6],
-        }
-    }
-
-    pub(crate) fn write(&self, state: &mut [f64]) {
-        state[..6].copy_from_slice(self.strain.as_slice());
-        state[6] = self.kappa;
-    }
-
     /// What a plastic point shows.
     pub(crate) fn report(&self, curve: &CompressionCurve) -> PointReport {
         PointReport {
