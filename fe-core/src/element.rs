@@ -104,6 +104,14 @@ pub enum ElementError {
         /// Position of the first point without host (mm).
         z: f64,
     },
+    /// A host block is not there.
+    #[error("no block of hexahedra is named {block}; the mesh has {known}")]
+    NoSuchBlock {
+        /// Name asked for.
+        block: String,
+        /// Blocks of hexahedra there are.
+        known: String,
+    },
     /// Some other impossible input.
     #[error("{what} = {value} is outside {allowed}; {remedy}")]
     Input {
