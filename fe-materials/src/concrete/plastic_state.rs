@@ -1,9 +1,16 @@
-//! Internal variables of the plastic laws.
+//! Internal variables and tolerances of the plastic laws.
 
 use fe_core::material::{PointReport, StateVar};
 use nalgebra::Vector6;
 
 use super::CompressionCurve;
+
+/// Overshoot of the yield condition that still counts as elastic, relative to the yield stress: above
+/// [`RETURN_TOLERANCE`], so that a returned stress is elastic at the same strain.
+pub(crate) const YIELD_TOLERANCE: f64 = 1e-12;
+
+/// Tolerance of a stress return, relative to the stress it solves for.
+pub(crate) const RETURN_TOLERANCE: f64 = 1e-13;
 
 /// Internal variables of a plastic law, in the order of its state slice.
 pub(crate) const PLASTIC_VARS: [StateVar; 2] = [
