@@ -1,4 +1,16 @@
 //! Constitutive laws for reinforced concrete.
 
+mod biso;
 pub mod concrete;
+mod elastic;
+mod elasticity;
 pub mod fixed_crack;
+mod lamina;
+mod limits;
+mod plastic_state;
+mod von_mises;
+
+pub use biso::{Biso, Hardening};
+pub use elastic::Elastic;
+pub use lamina::{Lamina, LaminaParameters, Laminate, Ply};
+pub use von_mises::VonMises;

@@ -22,6 +22,8 @@ pub struct SecantSettings {
     pub rebuild_after: usize,
     /// Viscous solves at a fixed load factor before a snap is given up.
     pub max_holds: usize,
+    /// Smallest relaxation a of such a solve before a snap is given up.
+    pub min_relaxation: f64,
 }
 
 impl Default for SecantSettings {
@@ -31,7 +33,8 @@ impl Default for SecantSettings {
             depth: 10,
             viscosity: 0.0,
             rebuild_after: 30,
-            max_holds: 40,
+            max_holds: 150,
+            min_relaxation: 1e-4,
         }
     }
 }
@@ -52,7 +55,8 @@ pub struct SecantAnderson {
 /// Result of one solve at a fixed load factor and relaxation.
 struct Solve {
     free: Vec<f64>,
-    converged: bool,
+    /// Residual of the last evaluation, if it was that of `free`: the solve converged.
+    converged: Option<Residual>,
     iterations: usize,
 }
 
@@ -93,7 +97,7 @@ impl SecantAnderson {
             if size.relative <= criterion {
                 return Ok(Solve {
                     free,
-                    converged: true,
+                    converged: Some(size),
                     iterations,
                 });
             }
@@ -104,7 +108,7 @@ impl SecantAnderson {
                 let free = best.map_or(free, |(_, free)| free);
                 return Ok(Solve {
                     free,
-                    converged: false,
+                    converged: None,
                     iterations,
                 });
             }
@@ -141,12 +145,9 @@ impl SecantAnderson {
         for q in &mut predictor {
             *q *= step;
         }
-        let force = EvaluationContext {
-            operator: Operator::None,
-            relaxation,
-        };
-        let old = stage.residual(&accepted, stage.lambda(), &force)?;
-        predictor.iter_mut().zip(&old).for_each(|(q, r)| *q += r);
+        for (q, r) in predictor.iter_mut().zip(stage.accepted_residual()) {
+            *q += r;
+        }
         stage.solve(&mut predictor)?;
         let mut free = stage.restrict(&accepted);
         free.iter_mut().zip(&predictor).for_each(|(u, d)| *u += d);
@@ -185,7 +186,11 @@ impl Driver for SecantAnderson {
         let first = Self::predict(stage, length, relaxation)?;
         let mut solve = self.solve(stage, first, lambda, relaxation, inner, log)?;
         let mut iterations = solve.iterations;
-        let mut residual = Self::check(stage, &solve.free, lambda)?;
+        let mut residual = match solve.converged {
+            // Without viscosity the iterate has been evaluated with the true law already.
+            Some(residual) if relaxation >= 1.0 => residual,
+            _ => Self::check(stage, &solve.free, lambda)?,
+        };
         let mut held = 0;
         if residual.relative > criterion && last_resort {
             relaxation = 0.5;
@@ -194,8 +199,11 @@ impl Driver for SecantAnderson {
                 held += 1;
                 solve = self.solve(stage, free.clone(), lambda, relaxation, inner, log)?;
                 iterations += solve.iterations;
-                if !solve.converged {
+                if solve.converged.is_none() {
                     relaxation *= 0.3;
+                    if relaxation < self.settings.min_relaxation {
+                        break;
+                    }
                     continue;
                 }
                 let u = stage.compose(&solve.free, lambda);
@@ -215,6 +223,10 @@ impl Driver for SecantAnderson {
                 }
             }
             solve.free = free;
+            if residual.relative > criterion {
+                // The last solve failed: return to the state it started from.
+                residual = Self::check(stage, &solve.free, lambda)?;
+            }
         }
         Ok(Attempt {
             displacement: stage.compose(&solve.free, lambda),

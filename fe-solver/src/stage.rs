@@ -66,6 +66,7 @@ pub struct Stage<'m> {
     displacement: Vec<f64>,
     lambda: f64,
     previous: Option<(Vec<f64>, f64)>,
+    accepted_residual: Vec<f64>,
     counters: Counters,
     times: PhaseTimes,
 }
@@ -99,6 +100,7 @@ impl<'m> Stage<'m> {
             assembled: Assembled::default(),
             lambda: 0.0,
             previous: None,
+            accepted_residual: Vec::new(),
             counters: Counters::default(),
             times: PhaseTimes::default(),
         })
@@ -127,6 +129,12 @@ impl<'m> Stage<'m> {
     /// Last accepted increment of displacement (all DOFs) and load factor.
     pub fn previous(&self) -> Option<(&[f64], f64)> {
         self.previous.as_ref().map(|(du, dl)| (du.as_slice(), *dl))
+    }
+
+    /// Residual f_ext - f_int of the free equations at the accepted state [N]; empty before the first
+    /// step has been accepted.
+    pub fn accepted_residual(&self) -> &[f64] {
+        &self.accepted_residual
     }
 
     /// Accepted states.
@@ -195,13 +203,14 @@ impl<'m> Stage<'m> {
             self.times.assembly += begin.elapsed();
         }
         self.conditions.external(lambda, &mut self.external);
+        Ok(self.unbalanced().collect())
+    }
+
+    /// f_ext - f_int of the free equations in the last evaluation.
+    fn unbalanced(&self) -> impl Iterator<Item = f64> {
         let (f, q) = (&self.external, &self.assembled.internal);
-        Ok(self
-            .assembler
-            .free()
-            .iter()
-            .map(|&d| f[d as usize] - q[d as usize])
-            .collect())
+        let free = self.assembler.free().iter();
+        free.map(|&d| f[d as usize] - q[d as usize])
     }
 
     /// Factorises the matrix of the last evaluation that asked for an operator.
@@ -320,6 +329,7 @@ impl<'m> Stage<'m> {
         self.previous = Some((du, lambda - self.lambda));
         self.displacement = u;
         self.lambda = lambda;
+        self.accepted_residual = self.unbalanced().collect();
         self.state.commit();
         self.counters.steps += 1;
     }

@@ -1,2 +1,7 @@
-//! rc-beams
-fn main() {}
+//! The program `rc-beams`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    rc_beams::cli::main().into()
+}

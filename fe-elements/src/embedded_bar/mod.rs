@@ -71,7 +71,23 @@ impl Bar {
                 "give coordinates in mm",
             ));
         }
+        if self.length_mm() <= 0.0 {
+            return Err(input(
+                "length_mm",
+                0.0,
+                "(0, inf)",
+                "give two different points",
+            ));
+        }
         Ok(())
+    }
+
+    /// Length of the polyline [mm].
+    pub fn length_mm(&self) -> f64 {
+        let segments = self.polyline.windows(2);
+        segments
+            .map(|w| (Vector3::from(w[1]) - Vector3::from(w[0])).norm())
+            .sum()
     }
 }
 
@@ -82,23 +98,14 @@ impl Bar {
 ///
 /// # Errors
 ///
-/// [`ElementError::NoHost`] naming the first point of a bar that lies in no host, [`ElementError::Input`] for
-/// an impossible bar.
+/// [`ElementError::NoHost`] naming the first point of a bar that lies in no host,
+/// [`ElementError::NoSuchBlock`] for an unknown block, [`ElementError::Input`] for an impossible bar.
 pub fn embed(
     bars: &[Bar],
     mesh: &Mesh,
     host_blocks: &[&str],
 ) -> Result<Vec<EmbeddedBar>, ElementError> {
-    let mut hosts = Vec::new();
-    for block in mesh.blocks() {
-        if block.kind != CellKind::Hex20 || !host_blocks.contains(&block.name.as_str()) {
-            continue;
-        }
-        for cell in block.cells() {
-            let nodes: [NodeId; 20] = std::array::from_fn(|a| cell[a]);
-            hosts.push(Host::new(nodes, &nodes.map(|n| mesh.nodes()[n])));
-        }
-    }
+    let hosts = hosts(mesh, host_blocks)?;
     let mut elements = Vec::new();
     for bar in bars {
         bar.check()?;
@@ -125,6 +132,24 @@ pub fn embed(
         }
     }
     Ok(elements)
+}
+
+/// Cells of the named blocks, in the order of the mesh.
+fn hosts(mesh: &Mesh, names: &[&str]) -> Result<Vec<Host>, ElementError> {
+    let hexahedra = || mesh.blocks().iter().filter(|b| b.kind == CellKind::Hex20);
+    if let Some(unknown) = names.iter().find(|n| hexahedra().all(|b| b.name != **n)) {
+        let known: Vec<&str> = hexahedra().map(|b| b.name.as_str()).collect();
+        return Err(ElementError::NoSuchBlock {
+            block: (*unknown).into(),
+            known: known.join(", "),
+        });
+    }
+    let named = hexahedra().filter(|b| names.contains(&b.name.as_str()));
+    let host = |cell: &[NodeId]| {
+        let nodes: [NodeId; 20] = std::array::from_fn(|a| cell[a]);
+        Host::new(nodes, &nodes.map(|n| mesh.nodes()[n]))
+    };
+    Ok(named.flat_map(|b| b.cells().map(host)).collect())
 }
 
 /// Gradients [1/mm] of the host's shape functions at a point [mm] inside it.

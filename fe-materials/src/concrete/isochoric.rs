@@ -7,11 +7,11 @@ use fe_core::material::{
 use fe_core::voigt::{principal, strain_voigt, stress_tensor};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use super::elasticity::Elasticity;
-use super::limits::finite;
 use super::plastic_state::{PLASTIC_VARS, PlasticState, RETURN_TOLERANCE, YIELD_TOLERANCE};
 use super::root::bracketed_root;
 use super::{Calibration, CompressionCurve, ConcreteScalars, Ottosen};
+use crate::elasticity::Elasticity;
+use crate::limits::finite;
 
 const LAW: &str = "isochoric Ottosen plasticity";
 

@@ -4,12 +4,11 @@
 //! yz, xz.
 
 mod associated;
-mod elasticity;
 mod hardening;
 mod isochoric;
-mod limits;
 mod ottosen;
 mod plastic_state;
+mod reference;
 mod root;
 mod scalars;
 mod spectral;
@@ -18,4 +17,5 @@ pub use associated::Associated;
 pub use hardening::{CompressionCurve, CurvePoint};
 pub use isochoric::Isochoric;
 pub use ottosen::{Calibration, Ottosen};
+pub use reference::{Reference, ReferenceParameters, ShearRetention, TensionStiffening};
 pub use scalars::ConcreteScalars;

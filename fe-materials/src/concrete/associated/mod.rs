@@ -9,12 +9,12 @@ use fe_core::material::{
 use fe_core::voigt::{principal, stress_tensor, stress_voigt};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use super::elasticity::Elasticity;
-use super::limits::finite;
 use super::plastic_state::{PLASTIC_VARS, PlasticState, RETURN_TOLERANCE, YIELD_TOLERANCE};
 use super::root::{NotConverged, bracketed_root};
 use super::spectral::{from_principal, spin_quotients};
 use super::{Calibration, CompressionCurve, ConcreteScalars, CurvePoint, Ottosen};
+use crate::elasticity::Elasticity;
+use crate::limits::finite;
 use projection::{Projected, Projection};
 
 const LAW: &str = "associated Ottosen plasticity";

@@ -5,9 +5,9 @@ use std::f64::consts::{FRAC_PI_3, TAU};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::concrete::Ottosen;
-use crate::concrete::elasticity::Elasticity;
 use crate::concrete::plastic_state::RETURN_TOLERANCE;
 use crate::concrete::root::{NotConverged, bracketed_root};
+use crate::elasticity::Elasticity;
 
 /// Tolerance of the Lode angle, relative to the deviator of the trial stress.
 const ANGLE_TOLERANCE: f64 = 4e-16;

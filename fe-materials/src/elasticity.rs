@@ -4,7 +4,7 @@ use fe_core::material::MaterialError;
 use fe_core::voigt::isotropic;
 use nalgebra::{Matrix3, Matrix6, Vector6};
 
-use super::limits::{out_of_range, positive};
+use crate::limits::{out_of_range, positive};
 
 /// Isotropic elastic constants and the 6 x 6 matrix D of engineering shear strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +23,7 @@ impl Elasticity {
     pub(crate) fn new(law: &'static str, young: f64, poisson: f64) -> Result<Self, MaterialError> {
         positive(law, "young_mpa", young, "MPa")?;
         if !(0.0..0.5).contains(&poisson) {
-            let remedy = "concrete has about 0.2";
+            let remedy = "steel has about 0.3, concrete about 0.2";
             return Err(out_of_range(
                 law, "poisson", poisson, "-", "[0, 0.5)", remedy,
             ));

@@ -1,7 +1,7 @@
 //! Range checks of parameters and strains.
 
 use fe_core::material::MaterialError;
-use nalgebra::Vector6;
+use nalgebra::SVector;
 
 /// The error of a parameter outside its range.
 pub(crate) fn out_of_range(
@@ -39,7 +39,10 @@ pub(crate) fn positive(
 }
 
 /// Refuses a strain that is not a number.
-pub(crate) fn finite(law: &'static str, strain: &Vector6<f64>) -> Result<(), MaterialError> {
+pub(crate) fn finite<const N: usize>(
+    law: &'static str,
+    strain: &SVector<f64, N>,
+) -> Result<(), MaterialError> {
     match strain.iter().position(|e| !e.is_finite()) {
         Some(component) => Err(MaterialError::NotFinite { law, component }),
         None => Ok(()),

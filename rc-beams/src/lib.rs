@@ -1,0 +1,11 @@
+//! Simulates the reinforced-concrete beams of Khalifa (1999) from first crack to failure.
+
+pub mod cli;
+pub mod exit;
+pub mod input;
+pub mod list;
+pub mod options;
+pub mod output;
+pub mod run;
+pub mod spec;
+mod suggest;

@@ -1,0 +1,168 @@
+//! Options of a run; as flags of the command line they carry the texts of its help.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+
+/// How specimens are modelled, solved and written.
+#[derive(Debug, Clone, PartialEq, Serialize, Args)]
+pub struct RunOptions {
+    /// Meaning of the reported concrete strength
+    #[arg(long, value_enum, default_value_t)]
+    pub preset: Preset,
+
+    /// Elements along, up and across the beam, for instance 60x4x1
+    #[arg(long, value_name = "NXxNYxNZ")]
+    pub mesh: Option<MeshSize>,
+
+    /// Integration points of the concrete elements
+    #[arg(long, value_enum, default_value_t)]
+    pub integration: Integration,
+
+    /// Law of the concrete
+    #[arg(long, value_enum, default_value_t)]
+    pub law: Law,
+
+    /// Solution of a step
+    #[arg(long, value_enum, default_value_t)]
+    pub driver: Driver,
+
+    /// Steps to the final deflection at the initial step size, which then adapts
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub steps: Option<u32>,
+
+    /// Final deflection imposed on the loads [mm]; without it, that of the specimen
+    #[arg(long = "until", value_name = "MM", value_parser = deflection, allow_negative_numbers = true)]
+    pub until_mm: Option<f64>,
+
+    /// Threads; without it, one per core
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+
+    /// Folder of the results, made if missing
+    #[arg(short, long, value_name = "DIR", default_value = "results")]
+    pub output: PathBuf,
+
+    /// Steps whose fields are written for ParaView
+    #[arg(long, value_enum, default_value_t)]
+    pub fields: Fields,
+}
+
+/// Meaning of the reported concrete strength.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Preset {
+    /// The mean strength
+    #[default]
+    Default,
+    /// The characteristic strength: the mean is 8 MPa more
+    Characteristic,
+}
+
+/// Integration points of the concrete elements.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Integration {
+    /// 2x2x2
+    #[default]
+    Reduced,
+    /// 3x3x3
+    Full,
+}
+
+/// Law of the concrete.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Law {
+    /// Fixed cracks, shear factor from the largest opening reached
+    #[default]
+    FixedCrack,
+    /// The law of the reference: Ottosen surface, fixed cracks
+    Reference,
+    /// Ottosen surface, softening by fracture energy
+    Objective,
+}
+
+/// Solution of a step.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Driver {
+    /// Secant operator with Anderson acceleration
+    #[default]
+    Secant,
+    /// Newton-Raphson, tangent renewed at every iteration
+    Newton,
+    /// Newton-Raphson, tangent renewed at every step
+    ModifiedNewton,
+}
+
+/// Steps whose fields are written for ParaView.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fields {
+    /// No step
+    None,
+    /// The last step
+    Last,
+    /// Every accepted step
+    #[default]
+    All,
+}
+
+/// Numbers of elements along, up and across the beam.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct MeshSize {
+    /// Along the beam, x.
+    pub nx: usize,
+    /// Over the height, y.
+    pub ny: usize,
+    /// Over half of the width, z.
+    pub nz: usize,
+}
+
+/// Largest number of elements in one direction.
+const MAX_ELEMENTS: usize = 1000;
+
+impl FromStr for MeshSize {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let counts: Vec<usize> = text
+            .split('x')
+            .map(|n| {
+                n.parse()
+                    .map_err(|_| format!("{n:?} is not a whole number"))
+            })
+            .collect::<Result<_, _>>()
+            .map_err(|what| format!("{what}; write three counts, for instance 60x4x1"))?;
+        let [nx, ny, nz] = counts[..] else {
+            return Err(format!(
+                "{} counts; write three, for instance 60x4x1",
+                counts.len()
+            ));
+        };
+        for (count, axis) in [(nx, "along"), (ny, "up"), (nz, "across")] {
+            if !(1..=MAX_ELEMENTS).contains(&count) {
+                return Err(format!(
+                    "{count} elements {axis} the beam; allowed: 1 to {MAX_ELEMENTS}, for instance 60x4x1"
+                ));
+            }
+        }
+        Ok(Self { nx, ny, nz })
+    }
+}
+
+/// A deflection of the command line [mm].
+fn deflection(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| {
+        let hint = if text.contains(',') {
+            "; use a decimal point"
+        } else {
+            ""
+        };
+        format!("not a number{hint}")
+    })?;
+    crate::spec::Deflection::try_from(value).map(f64::from)
+}

@@ -1,0 +1,172 @@
+//! What is wrong with a specimen file, and where.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use miette::{Diagnostic, NamedSource, SourceSpan};
+use ron::error::{Error, Position, SpannedError};
+
+use super::check::Finding;
+use super::places::Places;
+use crate::suggest::nearest;
+
+/// An error of a specimen file; shows the line it stands in.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+#[error("{message}")]
+#[diagnostic(code(rc_beams::specimen))]
+pub struct SpecError {
+    message: String,
+    label: String,
+    #[help]
+    help: Option<String>,
+    #[source_code]
+    file: Arc<NamedSource<String>>,
+    #[label("{label}")]
+    place: SourceSpan,
+}
+
+impl SpecError {
+    /// From the error of the parser at the field `path`.
+    pub(super) fn parse(file: &Arc<NamedSource<String>>, path: &str, error: &SpannedError) -> Self {
+        let text = file.inner();
+        let place = offset(text, error.span.start)..offset(text, error.span.end);
+        let (place, words) =
+            mistyped_number(text, place.start).unwrap_or_else(|| (place, Words::of(&error.code)));
+        let field = path.trim_end_matches(['?', '.']);
+        Self::new(file, field, words, place)
+    }
+
+    /// From fields that disagree with each other.
+    pub(super) fn finding(
+        file: &Arc<NamedSource<String>>,
+        places: &Places,
+        found: Finding,
+    ) -> Self {
+        let place = places.find(&found.path);
+        let words = Words::new(found.message, "here", Some(found.remedy));
+        Self::new(file, &found.path, words, place)
+    }
+
+    fn new(
+        file: &Arc<NamedSource<String>>,
+        field: &str,
+        words: Words,
+        place: Range<usize>,
+    ) -> Self {
+        let Words { what, label, help } = words;
+        let message = if field.is_empty() {
+            what
+        } else {
+            format!("{field}: {what}")
+        };
+        Self {
+            message,
+            label,
+            help,
+            file: file.clone(),
+            place: place.into(),
+        }
+    }
+}
+
+/// What is wrong, the words under the place, and what to do.
+struct Words {
+    what: String,
+    label: String,
+    help: Option<String>,
+}
+
+impl Words {
+    fn new(what: impl Into<String>, label: impl Into<String>, help: Option<String>) -> Self {
+        Self {
+            what: what.into(),
+            label: label.into(),
+            help,
+        }
+    }
+
+    /// The words for an error of the parser.
+    fn of(error: &Error) -> Self {
+        match error {
+            Error::NoSuchStructField {
+                expected, found, ..
+            } => Self::unknown("no such field", found, expected),
+            Error::NoSuchEnumVariant {
+                expected, found, ..
+            } => Self::unknown("no such choice", found, expected),
+            Error::MissingStructField { field, .. } => Self::new(
+                format!("the field `{field}` is missing"),
+                format!("add `{field}: ...` before this"),
+                None,
+            ),
+            Error::DuplicateStructField { field, .. } => Self::new(
+                format!("the field `{field}` stands twice"),
+                "again here",
+                Some("remove one of the two".into()),
+            ),
+            Error::Message(what) => Self::new(what, "this value", None),
+            Error::Eof => Self::new(
+                "the text ends too early",
+                "here",
+                Some("close all brackets".into()),
+            ),
+            other => Self::new(other.to_string().to_lowercase(), "here", None),
+        }
+    }
+
+    fn unknown(what: &str, found: &str, allowed: &[&str]) -> Self {
+        let label = match nearest(found, allowed.iter().copied()) {
+            Some(name) => format!("did you mean `{name}`?"),
+            None => "not known here".into(),
+        };
+        Self::new(
+            what,
+            label,
+            Some(format!("allowed: {}", allowed.join(", "))),
+        )
+    }
+}
+
+/// Recognises a number whose tail the parser stumbled over at `at`: a decimal comma, a unit, or a
+/// fraction where a whole number belongs.
+fn mistyped_number(text: &str, at: usize) -> Option<(Range<usize>, Words)> {
+    let (before, after) = text.split_at_checked(at)?;
+    let digits = |s: &str| s.len() - s.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+    let tail = after
+        .split(|c: char| !c.is_ascii_alphanumeric() && c != '.')
+        .next()?;
+    let first = tail.chars().next()?;
+    if let Some(whole) = before.strip_suffix(',').filter(|_| first.is_ascii_digit()) {
+        let number = &whole[whole.len() - digits(whole)..];
+        let place = at - 1 - number.len()..at + tail.len();
+        let help = format!("use a decimal point: {number}.{tail}");
+        let words = Words::new("a number with a decimal comma", "this number", Some(help));
+        return (!number.is_empty()).then_some((place, words));
+    }
+    let number = before.trim_end_matches(' ');
+    if digits(number) == 0 || after[tail.len()..].trim_start().starts_with(':') {
+        return None;
+    }
+    let words = if first.is_ascii_alphabetic() {
+        let help = "leave the unit away: the name of the field states it".to_string();
+        Words::new("a number with a unit behind it", "this unit", Some(help))
+    } else {
+        Words::new("a fraction; allowed: whole numbers", "the fraction", None)
+    };
+    Some((at..at + tail.len(), words))
+}
+
+/// Byte offset of a line and column, both counted from 1, columns in characters.
+fn offset(text: &str, position: Position) -> usize {
+    let line: usize = text
+        .split_inclusive('\n')
+        .take(position.line - 1)
+        .map(str::len)
+        .sum();
+    let column: usize = text[line..]
+        .chars()
+        .take(position.col - 1)
+        .map(char::len_utf8)
+        .sum();
+    line + column
+}

@@ -1,0 +1,261 @@
+//! A specimen: the whole beam as tested, described for its half model.
+//!
+//! Axes: x along the beam from its left end, y up from the soffit, z across the width from the
+//! symmetry plane z = 0 to the side face. Every group of values states its source; "assumed: ..."
+//! where no source gives it.
+
+use serde::{Deserialize, Serialize};
+
+use super::quantity::{
+    Acceleration, BeamLength, ConcreteModulus, ConcreteStrength, Coordinate, Deflection, Density,
+    Load, PlateLength, PlateModulus, PlateThickness, Poisson, SectionSize, StubDepth,
+    TensileStrength,
+};
+use super::reinforcement::{Bar, Stirrups};
+
+/// One beam.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Specimen {
+    /// Short name; also the name of the result folder.
+    pub name: String,
+    /// What the specimen is, in a few words.
+    pub title: String,
+    /// Test series.
+    pub series: Series,
+    /// Outline of the beam.
+    pub beam: Beam,
+    /// Concrete.
+    pub concrete: Concrete,
+    /// Self weight.
+    pub gravity: Gravity,
+    /// Longitudinal bars.
+    pub bars: Vec<Bar>,
+    /// Stirrups, if any.
+    pub stirrups: Option<Stirrups>,
+    /// Supports from left to right.
+    pub supports: Vec<Support>,
+    /// Loads from left to right; all are pushed down by the same amount.
+    pub loads: Vec<LoadPoint>,
+    /// What is measured.
+    pub measuring: Measuring,
+    /// How far the loads are pushed.
+    pub imposed: Imposed,
+    /// Result of the laboratory test; without one, the result of the program is a prediction.
+    pub test: Option<Test>,
+}
+
+/// Test series of Khalifa (1999).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Series {
+    /// Simply supported, four-point bending.
+    A,
+    /// Two-span continuous.
+    B,
+}
+
+/// Outline of the beam: a rectangular prism.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Beam {
+    /// Length [mm].
+    pub length_mm: BeamLength,
+    /// Width of the whole section [mm]; the model holds half of it.
+    pub width_mm: SectionSize,
+    /// Height of the section [mm].
+    pub height_mm: SectionSize,
+    /// Source of the values.
+    pub source: String,
+}
+
+/// Concrete as reported by the test.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Concrete {
+    /// Reported compressive strength [MPa].
+    pub reported_strength_mpa: ConcreteStrength,
+    /// Reported tensile strength [MPa].
+    pub reported_tensile_mpa: TensileStrength,
+    /// Young's modulus [MPa].
+    pub young_mpa: ConcreteModulus,
+    /// Poisson's ratio.
+    pub poisson: Poisson,
+    /// Density [kg/m3].
+    pub density_kg_m3: Density,
+    /// Source of the values.
+    pub source: String,
+}
+
+/// Gravity, against y.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gravity {
+    /// Acceleration [m/s2].
+    pub acceleration_m_s2: Acceleration,
+    /// Source of the value.
+    pub source: String,
+}
+
+/// A support: a plate under the beam, or under a stub of concrete under the beam, held on the line at
+/// the centre of its lower face.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Support {
+    /// Centre [mm].
+    pub x_mm: Coordinate,
+    /// Displacements held at zero.
+    pub held: Vec<Held>,
+    /// Plate.
+    pub plate: Plate,
+    /// Stub between beam and plate, of the concrete of the beam and as wide.
+    pub stub: Option<Stub>,
+    /// Source of position and held displacements.
+    pub source: String,
+}
+
+/// A displacement held by a support.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Held {
+    /// Along the beam.
+    Ux,
+    /// Vertical.
+    Uy,
+}
+
+/// A plate, as wide as the beam.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plate {
+    /// Length along the beam [mm].
+    pub length_mm: PlateLength,
+    /// Thickness [mm].
+    pub thickness_mm: PlateThickness,
+    /// Young's modulus [MPa].
+    pub young_mpa: PlateModulus,
+    /// Poisson's ratio.
+    pub poisson: Poisson,
+    /// Source of the values.
+    pub source: String,
+}
+
+/// A block of concrete between beam and support plate.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stub {
+    /// Length along the beam [mm].
+    pub length_mm: PlateLength,
+    /// Depth below the soffit [mm].
+    pub depth_mm: StubDepth,
+    /// Source of the values.
+    pub source: String,
+}
+
+/// A load: a plate on the beam, pushed down on the line at the centre of its upper face.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LoadPoint {
+    /// Centre [mm].
+    pub x_mm: Coordinate,
+    /// Plate.
+    pub plate: Plate,
+    /// Source of the position.
+    pub source: String,
+}
+
+/// What the test measured.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Measuring {
+    /// Where the deflection is read.
+    pub deflection: Point,
+    /// Which load is reported.
+    pub load: LoadMeasure,
+    /// The shear span under test.
+    pub test_span: Span,
+}
+
+/// A point of the half model.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Point {
+    /// Along the beam [mm].
+    pub x_mm: Coordinate,
+    /// Above the soffit [mm].
+    pub y_mm: Coordinate,
+    /// From the symmetry plane [mm].
+    pub z_mm: Coordinate,
+    /// Source of the values.
+    pub source: String,
+}
+
+/// A stretch of the beam.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Span {
+    /// Left end [mm].
+    pub x_from_mm: Coordinate,
+    /// Right end [mm].
+    pub x_to_mm: Coordinate,
+    /// Source of the values.
+    pub source: String,
+}
+
+/// The reported load, of the whole width and net of self weight.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum LoadMeasure {
+    /// Sum of the vertical reactions of all supports.
+    TotalReactions,
+    /// Shear force between a load and the inner support: the load less the reaction of its end support.
+    InnerShear {
+        /// Which load, counted from 0 at the left.
+        load: usize,
+        /// Which end support, counted from 0 at the left.
+        end_support: usize,
+    },
+}
+
+/// The deflection imposed on the loads.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Imposed {
+    /// Final value [mm].
+    pub deflection_mm: Deflection,
+    /// Source of the value.
+    pub source: String,
+}
+
+/// Result of the laboratory test.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Test {
+    /// Largest load, measured as [`Measuring::load`] says [kN].
+    pub load_kn: Load,
+    /// Observed mode of failure.
+    pub mode: Mode,
+    /// Source of the values.
+    pub source: String,
+}
+
+/// Mode of failure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Mode {
+    /// Diagonal cracking of a shear span.
+    Shear,
+    /// Yield of the longitudinal bars, then crushing.
+    Flexure,
+}
+
+impl Specimen {
+    /// Half of the width, the extent of the model in z [mm].
+    pub fn half_width_mm(&self) -> f64 {
+        0.5 * self.beam.width_mm.get()
+    }
+
+    /// Weight of the whole concrete prism [N].
+    pub fn weight_n(&self) -> f64 {
+        let b = &self.beam;
+        let volume_m3 = b.length_mm.get() * b.width_mm.get() * b.height_mm.get() * 1e-9;
+        volume_m3 * self.concrete.density_kg_m3.get() * self.gravity.acceleration_m_s2.get()
+    }
+}
