@@ -13,8 +13,6 @@ mod root;
 mod scalars;
 mod spectral;
 
-use crate::{elasticity, limits};
-
 pub use associated::Associated;
 pub use hardening::{CompressionCurve, CurvePoint};
 pub use isochoric::Isochoric;
