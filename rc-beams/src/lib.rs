@@ -1,5 +1,7 @@
 //! Simulates the reinforced-concrete beams of Khalifa (1999) from first crack to failure.
 
+pub mod analysis;
+pub mod build;
 pub mod cli;
 pub mod exit;
 pub mod input;
