@@ -33,7 +33,7 @@ pub struct RunOptions {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub steps: Option<u32>,
 
-    /// Final deflection imposed on the loads [mm]; without it, that of the specimen
+    /// Final deflection imposed on the loads (mm); without it, that of the specimen
     #[arg(long = "until", value_name = "MM", value_parser = deflection, allow_negative_numbers = true)]
     pub until_mm: Option<f64>,
 
@@ -154,7 +154,7 @@ impl FromStr for MeshSize {
     }
 }
 
-/// A deflection of the command line [mm].
+/// A deflection of the command line (mm).
 fn deflection(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| {
         let hint = if text.contains(',') {

@@ -42,3 +42,37 @@ fn parse(file: &Arc<NamedSource<String>>) -> Result<Specimen, SpecError> {
         .map_err(|error| SpecError::parse(file, "", &text.span_error(error)))?;
     Ok(specimen)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::BUILTIN;
+
+    /// Protects the reader from panics: every character of a file removed or replaced in turn.
+    #[test]
+    fn no_slip_of_the_keyboard_panics() {
+        let (_, text) = BUILTIN[0];
+        let mut refused = 0;
+        for (at, c) in text.char_indices() {
+            let (before, after) = (&text[..at], &text[at + c.len_utf8()..]);
+            for slip in ["", ",", "é"] {
+                refused += usize::from(read("slip", &format!("{before}{slip}{after}")).is_err());
+            }
+        }
+        assert!(
+            refused > text.len(),
+            "{refused} of {} slips refused",
+            5 * text.len()
+        );
+    }
+
+    /// Protects what a run writes of its specimen: it is read back as the same specimen.
+    #[test]
+    fn a_specimen_survives_writing_and_reading() {
+        for (name, text) in BUILTIN {
+            let specimen = read(name, text).unwrap();
+            let written = ron::ser::to_string_pretty(&specimen, ron::ser::PrettyConfig::default());
+            assert_eq!(read(name, &written.unwrap()).unwrap(), specimen);
+        }
+    }
+}
