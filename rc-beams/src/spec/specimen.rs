@@ -251,11 +251,4 @@ impl Specimen {
     pub fn half_width_mm(&self) -> f64 {
         0.5 * self.beam.width_mm.get()
     }
-
-    /// Weight of the whole concrete prism (N).
-    pub fn weight_n(&self) -> f64 {
-        let b = &self.beam;
-        let volume_m3 = b.length_mm.get() * b.width_mm.get() * b.height_mm.get() * 1e-9;
-        volume_m3 * self.concrete.density_kg_m3.get() * self.gravity.acceleration_m_s2.get()
-    }
 }
