@@ -6,7 +6,8 @@ use std::{fs, io};
 use miette::Diagnostic;
 
 use crate::exit::Exit;
-use crate::spec::{BUILTIN, SpecError, Specimen, read};
+use crate::ronfile::RonError;
+use crate::spec::{BUILTIN, Specimen, read};
 use crate::suggest::nearest;
 
 /// What is wrong with a beam named on the command line.
@@ -48,7 +49,7 @@ pub enum InputError {
     /// A file whose content is wrong.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Spec(#[from] SpecError),
+    Content(#[from] RonError),
 }
 
 impl InputError {
@@ -57,7 +58,7 @@ impl InputError {
         match self {
             Self::UnknownBeam { .. } | Self::Twice { .. } => Exit::Usage,
             Self::File { .. } => Exit::File,
-            Self::Spec(_) => Exit::BadInput,
+            Self::Content(_) => Exit::BadInput,
         }
     }
 }

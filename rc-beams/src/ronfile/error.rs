@@ -1,4 +1,4 @@
-//! What is wrong with a specimen file, and where.
+//! What is wrong with a file, and where.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -6,15 +6,14 @@ use std::sync::Arc;
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use ron::error::{Error, Position, SpannedError};
 
-use super::check::Finding;
 use super::places::Places;
 use crate::suggest::nearest;
 
-/// An error of a specimen file; shows the line it stands in.
+/// An error of a file; shows the line it stands in.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[error("{message}")]
-#[diagnostic(code(rc_beams::specimen))]
-pub struct SpecError {
+#[diagnostic(code(rc_beams::input))]
+pub struct RonError {
     message: String,
     label: String,
     #[help]
@@ -25,7 +24,7 @@ pub struct SpecError {
     place: SourceSpan,
 }
 
-impl SpecError {
+impl RonError {
     /// From the error of the parser at the field `path`.
     pub(super) fn parse(file: &Arc<NamedSource<String>>, path: &str, error: &SpannedError) -> Self {
         let text = file.inner();
@@ -41,15 +40,17 @@ impl SpecError {
         Self::new(file, field.trim_matches('.'), words, place)
     }
 
-    /// From fields that disagree with each other.
-    pub(super) fn finding(
+    /// From what is wrong with the value at `path`; shows the first line of it.
+    pub(super) fn found(
         file: &Arc<NamedSource<String>>,
-        places: &Places,
-        found: Finding,
+        path: &str,
+        what: String,
+        help: Option<String>,
     ) -> Self {
-        let place = places.find(&found.path);
-        let words = Words::new(found.message, "here", Some(found.remedy));
-        Self::new(file, &found.path, words, place)
+        let mut place = Places::of(file.inner()).find(path);
+        let value = file.inner().get(place.clone()).unwrap_or_default();
+        place.end = place.start + value.lines().next().unwrap_or_default().len();
+        Self::new(file, path, Words::new(what, "here", help), place)
     }
 
     fn new(
@@ -68,7 +69,7 @@ impl SpecError {
             message,
             label,
             help,
-            file: file.clone(),
+            file: Arc::clone(file),
             place: place.into(),
         }
     }
