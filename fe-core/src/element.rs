@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use crate::dof::Dof;
 use crate::material::{MaterialError, Operator, PointReport, StateVar};
-use crate::mesh::NodeId;
+use crate::mesh::{CellKind, NodeId};
 
 /// What holds for every element in one evaluation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -163,6 +163,12 @@ pub trait Element: Debug + Send + Sync {
         ctx: &EvaluationContext,
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError>;
+
+    /// The cell to draw the element as, on its own nodes in that order; `None` for an element that draws
+    /// [segments](Self::segments) or nothing.
+    fn cell(&self) -> Option<CellKind> {
+        None
+    }
 
     /// Whether the stiffness for [`Operator::Tangent`] can be unsymmetric.
     fn unsymmetric(&self) -> bool {

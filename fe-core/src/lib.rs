@@ -16,6 +16,7 @@ pub mod kinematics;
 pub mod material;
 pub mod mesh;
 pub mod model;
+pub mod output;
 pub mod point;
 pub mod shape;
 pub mod sparsity;

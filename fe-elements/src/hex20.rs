@@ -6,7 +6,7 @@ use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
 use fe_core::kinematics::{Kinematics, Solid};
 use fe_core::material::{Material, Operator, PointContext};
-use fe_core::mesh::NodeId;
+use fe_core::mesh::{CellKind, NodeId};
 use fe_core::shape::{hex20, quadrature};
 use nalgebra::{Matrix6, Vector3};
 
@@ -197,6 +197,10 @@ impl Element for Hex20 {
             );
         }
         Ok(())
+    }
+
+    fn cell(&self) -> Option<CellKind> {
+        Some(CellKind::Hex20)
     }
 
     fn unsymmetric(&self) -> bool {

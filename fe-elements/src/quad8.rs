@@ -6,7 +6,7 @@ use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext};
 use fe_core::kinematics::PlaneStress;
 use fe_core::material::{Material, Operator, PointContext};
-use fe_core::mesh::NodeId;
+use fe_core::mesh::{CellKind, NodeId};
 use fe_core::shape::{quad8, quadrature};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
@@ -157,6 +157,10 @@ impl Element for Quad8 {
             }
         }
         Ok(())
+    }
+
+    fn cell(&self) -> Option<CellKind> {
+        Some(CellKind::Quad8)
     }
 
     fn unsymmetric(&self) -> bool {

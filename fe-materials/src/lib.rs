@@ -1,6 +1,7 @@
 //! Constitutive laws for reinforced concrete.
 
 mod biso;
+pub mod case;
 pub mod concrete;
 mod elastic;
 mod elasticity;
@@ -12,5 +13,6 @@ mod von_mises;
 
 pub use biso::{Biso, Hardening};
 pub use elastic::Elastic;
+pub use fe_core::point;
 pub use lamina::{Lamina, LaminaParameters, Laminate, Ply};
 pub use von_mises::VonMises;

@@ -9,9 +9,10 @@ use fe_core::kinematics::{Axial, Kinematics, Solid};
 use fe_core::material::{
     Material, MaterialError, Operator, PointContext, PointReport, Response, StateVar,
 };
-use fe_core::mesh::NodeId;
+use fe_core::mesh::{CellKind, NodeId};
+use fe_core::shape::hex20;
 use fe_core::voigt;
-use nalgebra::{Matrix6, Vector1, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Vector1, Vector3, Vector6};
 
 /// Linear elasticity with any stiffness matrix.
 #[derive(Debug)]
@@ -306,5 +307,125 @@ impl Element for Truss {
         visit: &mut dyn FnMut([[f64; 3]; 2], f64),
     ) -> Result<(), ElementError> {
         self.sample(u, state, &mut |s| visit(self.ends, s.stress[0]))
+    }
+}
+
+/// A 20-node hexahedron with one integration point at its centre, for tests of output and numbering.
+///
+/// It is seen as two points: a quarter of the volume with crack strain 1e-3, the rest with 3e-3; and it
+/// draws a segment between two points of it.
+#[derive(Debug)]
+pub struct Brick {
+    nodes: [NodeId; 20],
+    gradients: [[f64; 3]; 20],
+    volume: f64,
+    law: Elastic,
+    pub segment: Option<[[f64; 3]; 2]>,
+}
+
+impl Brick {
+    pub fn new(nodes: &[NodeId], coords: &[[f64; 3]]) -> Self {
+        let nodes: [NodeId; 20] = nodes.try_into().unwrap();
+        let (_, gradients, determinant) = hex20::map(&nodes.map(|n| coords[n]), [0.0; 3]);
+        Self {
+            nodes,
+            gradients,
+            volume: 8.0 * determinant,
+            law: Elastic::isotropic(30e3, 0.2),
+            segment: None,
+        }
+    }
+
+    /// Column of B for a node and direction.
+    fn column(&self, i: usize) -> Vector6<f64> {
+        let (g, k) = (Vector3::from(self.gradients[i / 3]), i % 3);
+        let unit = Matrix3::identity().column(k).into_owned();
+        voigt::strain_voigt(&(0.5 * (g * unit.transpose() + unit * g.transpose())))
+    }
+
+    fn strain(&self, u: &[f64]) -> Vector6<f64> {
+        (0..60).map(|i| u[i] * self.column(i)).sum()
+    }
+}
+
+impl Element for Brick {
+    fn nodes(&self) -> &[NodeId] {
+        &self.nodes
+    }
+
+    fn dofs(&self) -> &'static [Dof] {
+        &Dof::DISPLACEMENTS
+    }
+
+    fn state_len(&self) -> usize {
+        0
+    }
+
+    fn init_state(&self, _: &mut [f64]) {}
+
+    fn evaluate(
+        &self,
+        u: &[f64],
+        _: &[f64],
+        _: &mut [f64],
+        ctx: &EvaluationContext,
+        out: ElementSystem<'_>,
+    ) -> Result<(), ElementError> {
+        let stress = self.law.0 * self.strain(u);
+        for i in 0..60 {
+            out.force[i] += self.volume * self.column(i).dot(&stress);
+            if ctx.operator != Operator::None {
+                for j in i..60 {
+                    out.stiffness[60 * i + j] +=
+                        self.volume * self.column(i).dot(&(self.law.0 * self.column(j)));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn cell(&self) -> Option<CellKind> {
+        Some(CellKind::Hex20)
+    }
+
+    fn sample(
+        &self,
+        u: &[f64],
+        _: &[f64],
+        visit: &mut dyn FnMut(PointSample<'_>),
+    ) -> Result<(), ElementError> {
+        let strain = self.strain(u);
+        let stress = self.law.0 * strain;
+        for (share, crack_strain, normal) in
+            [(0.25, 1e-3, [1.0, 0.0, 0.0]), (0.75, 3e-3, [0.0, 1.0, 0.0])]
+        {
+            visit(PointSample {
+                position: [0.0; 3],
+                volume: share * self.volume,
+                strain: Solid::components(&strain),
+                stress: Solid::components(&stress),
+                report: PointReport {
+                    crack_strain,
+                    crack_normal: normal,
+                    crushing: crack_strain,
+                    ..PointReport::default()
+                },
+                state_vars: &[],
+                state: &[],
+            });
+        }
+        Ok(())
+    }
+
+    fn segments(
+        &self,
+        _: &[f64],
+        _: &[f64],
+        visit: &mut dyn FnMut([[f64; 3]; 2], f64),
+    ) -> Result<(), ElementError> {
+        if let Some(ends) = self.segment {
+            visit(ends, 5.0);
+        }
+        Ok(())
     }
 }
