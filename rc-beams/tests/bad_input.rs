@@ -314,7 +314,15 @@ fn mistakes_in_a_file_are_named_with_their_place() {
 /// Arguments, exit code, words of the message.
 type Arguments = (&'static [&'static str], i32, &'static [&'static str]);
 
+const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/cyclic-bar.ron");
+
 const COMMANDS: &[Arguments] = &[
+    (&["point", "missing.ron"], 4, &["cannot read missing.ron"]),
+    (
+        &["point", CASE, "-o", "file/x.csv"],
+        4,
+        &["cannot write file/x.csv"],
+    ),
     (&["run"], 2, &["<BEAM>..."]),
     (
         &["run", "A-SO31"],
@@ -343,12 +351,12 @@ const COMMANDS: &[Arguments] = &[
     (
         &["run", "A-SO3-1", "-o", "file"],
         4,
-        &["cannot write into the folder file", "--output"],
+        &["cannot write file", "--output"],
     ),
     (
         &["run", "A-SO3-1", "-o", "file/below"],
         4,
-        &["cannot write into the folder file/below"],
+        &["cannot write file/below"],
     ),
     (
         &["run", "A-SO3-1", "--mesh", "0x4x1"],

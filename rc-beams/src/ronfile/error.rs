@@ -50,7 +50,7 @@ impl RonError {
         let mut place = Places::of(file.inner()).find(path);
         let value = file.inner().get(place.clone()).unwrap_or_default();
         place.end = place.start + value.lines().next().unwrap_or_default().len();
-        Self::new(file, path, Words::new(what, "here", help), place)
+        Self::new(file, "", Words::new(what, "here", help), place)
     }
 
     fn new(

@@ -16,9 +16,10 @@ pub fn read(name: &str, text: &str) -> Result<Specimen, Vec<RonError>> {
     if findings.is_empty() {
         return Ok(specimen);
     }
-    let shown = findings
-        .into_iter()
-        .map(|f| file.error(&f.path, f.message, Some(f.remedy)));
+    let shown = findings.into_iter().map(|found| {
+        let message = format!("{}: {}", found.path, found.message);
+        file.error(&found.path, message, Some(found.remedy))
+    });
     Err(shown.collect())
 }
 
