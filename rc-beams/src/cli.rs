@@ -1,6 +1,7 @@
 //! The command line: results go to standard output, messages to standard error.
 
 use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 use clap::{Parser, Subcommand};
 use miette::{MietteHandlerOpts, Report};
@@ -9,7 +10,7 @@ use crate::exit::Exit;
 use crate::input::{InputError, load, load_all};
 use crate::options::RunOptions;
 use crate::spec::BUILTIN;
-use crate::{list, output, run};
+use crate::{list, output, point, run};
 
 /// Reinforced-concrete beams of Khalifa (1999), simulated from first crack to failure.
 ///
@@ -44,6 +45,15 @@ enum Command {
         #[command(flatten)]
         options: RunOptions,
     },
+    /// Drive a material point and write strains, stresses and internal variables as CSV
+    Point {
+        /// Case file: a law and a program of strains and stresses
+        #[arg(value_name = "CASE")]
+        case: PathBuf,
+        /// File to write, made anew; without it, standard output
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
 }
 
 /// Runs the program with the arguments of the process.
@@ -62,6 +72,7 @@ pub fn main() -> Exit {
         Command::List { json } => list_beams(json),
         Command::Check { files } => check(&files),
         Command::Run { beams, options } => run_beams(&beams, &options),
+        Command::Point { case, output } => drive_point(&case, output.as_deref()),
     }
 }
 
@@ -73,10 +84,10 @@ fn list_beams(json: bool) -> Exit {
     };
     let rows: Vec<list::Row> = specimens.iter().map(list::Row::from).collect();
     if !json {
-        return print(&list::table(&rows));
+        return print(list::table(&rows));
     }
     match serde_json::to_string_pretty(&rows) {
-        Ok(text) => print(&format!("{text}\n")),
+        Ok(text) => print(format!("{text}\n")),
         Err(error) => fail(Exit::File, miette::miette!("{error}")),
     }
 }
@@ -86,7 +97,7 @@ fn check(files: &[String]) -> Exit {
     let mut exit = Exit::Done;
     for file in files {
         exit = exit.max(match load(file) {
-            Ok(specimen) => print(&format!("{file}: ok, beam {}\n", specimen.name)),
+            Ok(specimen) => print(format!("{file}: ok, beam {}\n", specimen.name)),
             Err(errors) => {
                 bad += 1;
                 report_all(errors)
@@ -115,9 +126,30 @@ fn run_beams(beams: &[String], options: &RunOptions) -> Exit {
     }
 }
 
+fn drive_point(case: &Path, output: Option<&Path>) -> Exit {
+    let run = match point::run(case) {
+        Ok(run) => run,
+        Err(error) => return fail(error.exit(), error),
+    };
+    let mut table = Vec::new();
+    let written = match (run.history.write_csv(&mut table), output) {
+        (Err(error), _) => fail(Exit::File, miette::miette!("{error}")),
+        (Ok(()), None) => print(&table),
+        (Ok(()), Some(path)) => match output::write(path, &table) {
+            Ok(()) => Exit::Done,
+            Err(error) => fail(Exit::File, error),
+        },
+    };
+    let driven = match run.result {
+        Ok(()) => Exit::Done,
+        Err(error) => fail(Exit::StoppedEarly, miette::miette!("{error}")),
+    };
+    written.max(driven)
+}
+
 /// Writes to standard output; a reader that has gone away is no error.
-fn print(text: &str) -> Exit {
-    match io::stdout().lock().write_all(text.as_bytes()) {
+fn print(text: impl AsRef<[u8]>) -> Exit {
+    match io::stdout().lock().write_all(text.as_ref()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => fail(
             Exit::File,
             miette::miette!("cannot write to standard output: {error}"),

@@ -8,6 +8,8 @@ pub mod input;
 pub mod list;
 pub mod options;
 pub mod output;
+pub mod point;
+pub mod ronfile;
 pub mod run;
 pub mod spec;
 mod suggest;
