@@ -15,36 +15,64 @@ use crate::{Biso, Elastic, Hardening, Lamina, LaminaParameters, Laminate, Ply, V
 /// A law of this crate with its parameters; units in the names of the fields.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[allow(missing_docs)] // The fields are those of the laws.
 pub enum LawCase {
     /// [`Elastic`] solid.
-    Elastic { young_mpa: f64, poisson: f64 },
+    Elastic {
+        /// Young's modulus (MPa).
+        young_mpa: f64,
+        /// Poisson's ratio (-).
+        poisson: f64,
+    },
     /// [`Elastic`] sheet in plane stress.
-    ElasticSheet { young_mpa: f64, poisson: f64 },
+    ElasticSheet {
+        /// Young's modulus (MPa).
+        young_mpa: f64,
+        /// Poisson's ratio (-).
+        poisson: f64,
+    },
     /// [`Elastic`] bar.
-    ElasticBar { young_mpa: f64 },
+    ElasticBar {
+        /// Young's modulus (MPa).
+        young_mpa: f64,
+    },
     /// [`VonMises`] solid; the plastic modulus is 0 unless given.
     VonMises {
+        /// Young's modulus (MPa).
         young_mpa: f64,
+        /// Poisson's ratio (-).
         poisson: f64,
+        /// Yield stress (MPa).
         yield_mpa: f64,
+        /// Plastic modulus H (MPa).
         #[serde(default)]
         hardening_mpa: f64,
     },
     /// [`Associated`] Ottosen plasticity.
-    Associated { concrete: ConcreteCase },
+    Associated {
+        /// The concrete.
+        concrete: ConcreteCase,
+    },
     /// [`Isochoric`] Ottosen plasticity.
-    Isochoric { concrete: ConcreteCase },
+    Isochoric {
+        /// The concrete.
+        concrete: ConcreteCase,
+    },
     /// [`Reference`] concrete; see [`ReferenceParameters::new`] for what is not given.
     Reference {
+        /// The concrete.
         concrete: ConcreteCase,
+        /// Cracks that keep tension stiffening.
         stiffening: TensionStiffening,
+        /// Shear retention of open cracks.
         #[serde(default)]
         retention: ShearRetention,
+        /// Stress after cracking over the tensile strength (-).
         #[serde(default)]
         stiffening_share: Option<f64>,
+        /// Strain at which the stiffening ends (-).
         #[serde(default)]
         stiffening_end: Option<f64>,
+        /// Least shear factor of open cracks (-).
         #[serde(default)]
         shear_floor: Option<f64>,
     },
@@ -52,34 +80,52 @@ pub enum LawCase {
     /// [`FixedCrackParameters::from_strength`] for what is not given. Cracks open on the Ottosen surface
     /// too unless `ottosen_onset` is false.
     FixedCrack {
+        /// The concrete.
         concrete: ConcreteCase,
+        /// Crack-band width h (mm).
         band_width_mm: f64,
+        /// Crushing energy (N/mm).
         #[serde(default)]
         crushing_energy_n_per_mm: Option<f64>,
+        /// Least shear factor of open cracks (-).
         #[serde(default)]
         shear_floor: Option<f64>,
+        /// Whether cracks open on the Ottosen surface too.
         #[serde(default = "yes")]
         ottosen_onset: bool,
     },
     /// [`Biso::hot_rolled`] bar.
     HotRolledBar {
+        /// Young's modulus (MPa).
         young_mpa: f64,
+        /// Yield stress (MPa).
         yield_mpa: f64,
+        /// Slope after yielding in total strain (MPa).
         tangent_mpa: f64,
+        /// Kind of hardening.
         #[serde(default)]
         hardening: Hardening,
     },
     /// [`Biso::cold_worked`] bar.
     ColdWorkedBar {
+        /// Young's modulus (MPa).
         young_mpa: f64,
+        /// Strength at a strain of 1 % (MPa).
         strength_mpa: f64,
+        /// Kind of hardening.
         #[serde(default)]
         hardening: Hardening,
     },
     /// [`Lamina`] in the axes of its fibres.
-    Lamina { sheet: LaminaParameters },
+    Lamina {
+        /// The sheet.
+        sheet: LaminaParameters,
+    },
     /// [`Laminate`].
-    Laminate { plies: Vec<PlyCase> },
+    Laminate {
+        /// The plies, from one face to the other.
+        plies: Vec<PlyCase>,
+    },
 }
 
 /// One ply of a [`LawCase::Laminate`].
