@@ -287,7 +287,7 @@ mod tests {
         assert_abs_diff_eq!(stresses[0], 350.0, epsilon = 1e-9);
     }
 
-    /// Contract of a law, 10^4 random steps: tangent, dissipation, repeatability.
+    /// Contract of a law, 10^4 random paths each: tangent, dissipation, repeatability.
     #[test]
     fn conforms() {
         let bar = Biso::hot_rolled(200e3, 460.0, 2e3).unwrap();
@@ -297,7 +297,8 @@ mod tests {
             Biso::hot_rolled(200e3, 460.0, 0.0).unwrap(),
         ] {
             let check = MaterialCheck {
-                paths: 250,
+                paths: 10_000,
+                steps: 10,
                 ..MaterialCheck::new(2e-2)
             };
             let report = check_material(&law, &check).unwrap();

@@ -54,7 +54,7 @@ const OPERATOR_FLOOR: f64 = 1e-4;
 /// proportional to the size of the element whatever the fracture energy, the crack-band width is not used,
 /// and shear stress on a crack grows without bound up to e = 0.01 with [`ShearRetention::Threshold`]. The
 /// stress jumps when a crack opens, and the shear stiffness returns when it closes: no free energy is
-/// promised.
+/// promised. Where two principal stresses coincide at onset, the axes in their plane are arbitrary.
 ///
 /// The growth of r_i in a step is scaled by the relaxation of the context; plastic strain is not.
 ///
