@@ -3,7 +3,7 @@
 use fe_core::material::MaterialError;
 
 use super::ConcreteScalars;
-use super::limits::{out_of_range, positive};
+use crate::limits::{out_of_range, positive};
 
 const LAW: &str = "compression curve";
 

@@ -7,20 +7,13 @@ use fe_core::material::{
 use fe_core::voigt::{principal, strain_voigt, stress_tensor};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use super::elasticity::Elasticity;
-use super::limits::finite;
-use super::plastic_state::{PLASTIC_VARS, PlasticState};
+use super::plastic_state::{PLASTIC_VARS, PlasticState, RETURN_TOLERANCE, YIELD_TOLERANCE};
 use super::root::bracketed_root;
 use super::{Calibration, CompressionCurve, ConcreteScalars, Ottosen};
+use crate::elasticity::Elasticity;
+use crate::limits::finite;
 
 const LAW: &str = "isochoric Ottosen plasticity";
-
-/// Overshoot of the yield condition that still counts as elastic, relative to fcm: above the tolerance of
-/// the return, so that a returned stress is elastic at the same strain.
-const YIELD_TOLERANCE: f64 = 1e-11;
-
-/// Tolerance of the return, relative to fcm.
-const RETURN_TOLERANCE: f64 = 2e-13;
 
 /// Plasticity with the Ottosen surface on the compressive part of the stress and isochoric flow.
 ///
@@ -119,26 +112,24 @@ impl Isochoric {
         if principal[2] >= 0.0 {
             return Ok(elastic);
         }
-        let fcm = self.surface.strength();
         let eta = curve.eta(committed.kappa);
-        let limit = curve.at(eta).stress + YIELD_TOLERANCE * fcm;
-        if self
+        let limit = curve.at(eta).stress * (1.0 + YIELD_TOLERANCE);
+        let effective = self
             .surface
-            .principal_effective_stress(&negative(&principal))
-            <= limit
-        {
+            .principal_effective_stress(&negative(&principal));
+        if effective <= limit {
             return Ok(elastic);
         }
         let flow = Flow::new(&elastic, self.elastic.shear);
         let last = curve.eta(committed.kappa + flow.full);
-        let eta = bracketed_root((eta, last), eta, RETURN_TOLERANCE * fcm, |eta| {
+        let eta = bracketed_root((eta, last), eta, RETURN_TOLERANCE * effective, |eta| {
             let point = curve.at(eta);
             let rho = flow.rho(point.kappa - committed.kappa);
             let (f, gradient) = self.clipped_gradient(&flow.principal(rho));
             let slope = -gradient.dot(&flow.deviator) * point.kappa_slope / flow.full;
             Ok((f - point.stress, slope - point.stress_slope))
         })
-        .map_err(|failure| failure.of(LAW, fcm))?;
+        .map_err(|failure| failure.of(LAW, self.surface.strength()))?;
         let point = curve.at(eta);
         let increment = point.kappa - committed.kappa;
         let rho = flow.rho(increment);

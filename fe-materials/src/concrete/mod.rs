@@ -8,14 +8,14 @@ mod hardening;
 mod isochoric;
 mod ottosen;
 mod plastic_state;
+mod reference;
 mod root;
 mod scalars;
 mod spectral;
-
-use crate::{elasticity, limits};
 
 pub use associated::Associated;
 pub use hardening::{CompressionCurve, CurvePoint};
 pub use isochoric::Isochoric;
 pub use ottosen::{Calibration, Ottosen};
+pub use reference::{Reference, ReferenceParameters, ShearRetention, TensionStiffening};
 pub use scalars::ConcreteScalars;

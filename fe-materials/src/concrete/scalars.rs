@@ -2,7 +2,7 @@
 
 use fe_core::material::MaterialError;
 
-use super::limits::out_of_range;
+use crate::limits::out_of_range;
 
 const LAW: &str = "concrete properties";
 
@@ -153,7 +153,7 @@ fn interpolate(table: &[(f64, f64)], x: f64) -> f64 {
 mod tests {
     //! Protects the formulas and tables of the Code.
     use super::ConcreteScalars;
-    use crate::concrete::limits::out_of_range;
+    use crate::limits::out_of_range;
 
     /// Source: fib Model Code 2010 evaluated independently for the concretes of the beams.
     /// Target: the printed digits.

@@ -3,7 +3,7 @@
 use fe_core::material::MaterialError;
 
 use super::Ottosen;
-use crate::concrete::limits::{out_of_range, positive};
+use crate::limits::{out_of_range, positive};
 
 const LAW: &str = "Ottosen surface";
 
