@@ -12,6 +12,9 @@ use crate::elasticity::Elasticity;
 /// Tolerance of the Lode angle, relative to the deviator of the trial stress.
 const ANGLE_TOLERANCE: f64 = 4e-16;
 
+/// Tolerance of the Lode angle at the apex [rad]: it only bounds the others.
+const APEX_TOLERANCE: f64 = 1e-14;
+
 /// Projection of a trial stress on the sets F <= s in the norm of the elastic compliance.
 ///
 /// In the coordinates p (mean stress), r = sqrt(J2) and f (Lode angle), with the trial values marked tr and a
@@ -173,7 +176,7 @@ impl<'a> Projection<'a> {
 /// Lode angle f at the maximum of cos(f - t)/lambda(f), where f - arctan(-lambda'/lambda) = t: the normal of
 /// the deviatoric section points along t. The left-hand side grows with f because the section is convex.
 fn apex_angle(surface: &Ottosen, t: f64) -> Result<f64, NotConverged> {
-    bracketed_root((t, FRAC_PI_3), t, f64::EPSILON, |angle| {
+    bracketed_root((t, FRAC_PI_3), t, APEX_TOLERANCE, |angle| {
         let [lambda, slope, curvature] = surface.polar_lambda(angle);
         let normal = angle - (-slope / lambda).atan();
         let growth = lambda * (lambda + curvature) / (lambda * lambda + slope * slope);
