@@ -1,0 +1,98 @@
+//! Meshes made from boxes, and the elements on them.
+
+use std::sync::Arc;
+
+use fe_core::element::{Element, ElementError};
+use fe_core::grid::GridBuilder;
+use fe_core::kinematics::Solid;
+use fe_core::material::Material;
+use fe_core::mesh::{Block, CellKind, Mesh, MeshError, NodeId};
+use fe_core::shape::hex20;
+use fe_elements::{BandWidth, Hex20, HexRule};
+
+/// Name of the only block of [`boxes`].
+pub const BLOCK: &str = "block";
+
+/// `n` equal cells from `low` to `high`.
+pub fn lines(low: f64, high: f64, n: usize) -> Vec<f64> {
+    let step = (high - low) / n as f64;
+    (0..=n).map(|i| low + step * i as f64).collect()
+}
+
+/// A box with one cell between neighbouring grid lines.
+///
+/// # Errors
+///
+/// [`MeshError`] for a line that is not a number.
+pub fn boxes(x: &[f64], y: &[f64], z: &[f64]) -> Result<Mesh, MeshError> {
+    let mut grid = GridBuilder::new();
+    grid.add_box(BLOCK, x, y, z);
+    grid.finish()
+}
+
+/// The same cells with every node moved to `map` of its place; node sets are dropped.
+///
+/// # Errors
+///
+/// [`MeshError`] for a place that is not a number.
+pub fn mapped(mesh: &Mesh, map: impl FnMut([f64; 3]) -> [f64; 3]) -> Result<Mesh, MeshError> {
+    let mut moved = Mesh::new(mesh.nodes().iter().copied().map(map).collect())?;
+    for block in mesh.blocks() {
+        let cells = block.cells().flatten().copied().collect();
+        moved.add_block(&block.name, block.kind, cells)?;
+    }
+    Ok(moved)
+}
+
+/// Nodes and coordinates of the hexahedra of a block.
+pub fn cells<'a>(
+    mesh: &'a Mesh,
+    block: &'a Block,
+) -> impl Iterator<Item = ([NodeId; 20], [[f64; 3]; 20])> + 'a {
+    block.cells().map(|cell| {
+        let nodes: [NodeId; 20] = std::array::from_fn(|a| cell[a]);
+        (nodes, nodes.map(|n| mesh.nodes()[n]))
+    })
+}
+
+/// One element of the given law in every hexahedron of the mesh.
+///
+/// # Errors
+///
+/// [`ElementError::Jacobian`] for a distorted cell.
+pub fn hexahedra(
+    mesh: &Mesh,
+    rule: HexRule,
+    law: &Arc<dyn Material<Solid>>,
+) -> Result<Vec<Box<dyn Element>>, ElementError> {
+    let mut elements: Vec<Box<dyn Element>> = Vec::new();
+    for block in mesh.blocks().iter().filter(|b| b.kind == CellKind::Hex20) {
+        for (nodes, coords) in cells(mesh, block) {
+            let law = Arc::clone(law);
+            elements.push(Box::new(Hex20::new(
+                nodes,
+                &coords,
+                rule,
+                law,
+                BandWidth::CubeRoot,
+            )?));
+        }
+    }
+    Ok(elements)
+}
+
+/// Faces of hexahedra all of whose nodes satisfy `test`: nodes in the order of an outward quadrilateral.
+pub fn faces(mesh: &Mesh, test: impl Fn([f64; 3]) -> bool) -> Vec<[NodeId; 8]> {
+    let hexahedra = mesh.blocks().iter().filter(|b| b.kind == CellKind::Hex20);
+    hexahedra
+        .flat_map(Block::cells)
+        .flat_map(|cell| hex20::FACES.map(|face| face.map(|a| cell[a])))
+        .filter(|face| face.iter().all(|&n| test(mesh.nodes()[n])))
+        .collect()
+}
+
+/// Nodes that satisfy `test`.
+pub fn nodes_where(mesh: &Mesh, test: impl Fn([f64; 3]) -> bool) -> Vec<NodeId> {
+    let all = mesh.nodes().iter().enumerate();
+    all.filter(|(_, x)| test(**x)).map(|(n, _)| n).collect()
+}
