@@ -15,6 +15,7 @@ const ZERO: f64 = 1e-11;
 pub struct DenseModel {
     /// DOF of each free equation.
     pub free: Vec<usize>,
+    dofs: usize,
     /// Eigenvalues [N/mm] and orthonormal eigenvectors of the stiffness of the free equations.
     eigen: SymmetricEigen<f64, nalgebra::Dyn>,
 }
@@ -39,6 +40,7 @@ impl DenseModel {
         }
         Ok(Self {
             free: assembler.free().iter().map(|&d| d as usize).collect(),
+            dofs: rest.len(),
             eigen: SymmetricEigen::new(stiffness),
         })
     }
@@ -62,7 +64,14 @@ impl DenseModel {
         self.modes(true).map(entry).fold(0.0, f64::max)
     }
 
-    /// Displacement [mm] of all `dofs` DOFs under the reference load, without any share of the modes without
+    /// Displacement of all DOFs in the first mode without energy, if there is one; unit norm.
+    pub fn mechanism(&self) -> Option<Vec<f64>> {
+        let first = self.modes(true).next()?;
+        let mode = self.eigen.eigenvectors.column(first);
+        Some(self.extend(mode.iter().copied()))
+    }
+
+    /// Displacement [mm] of all DOFs under the reference load, without any share of the modes without
     /// energy.
     pub fn solve(&self, conditions: &Conditions) -> Vec<f64> {
         let all = conditions.reference();
@@ -72,10 +81,29 @@ impl DenseModel {
             let mode = self.eigen.eigenvectors.column(i);
             free += mode * (mode.dot(&load) / self.eigen.eigenvalues[i]);
         }
-        let mut full = vec![0.0; all.len()];
-        for (&d, u) in self.free.iter().zip(free.iter()) {
-            full[d] = *u;
+        self.extend(free.iter().copied())
+    }
+
+    /// All DOFs from the free ones.
+    fn extend(&self, free: impl Iterator<Item = f64>) -> Vec<f64> {
+        let mut full = vec![0.0; self.dofs];
+        for (&d, u) in self.free.iter().zip(free) {
+            full[d] = u;
         }
         full
     }
+}
+
+/// Energy (1/2) u . f(u) [N mm] of a displacement [mm] of a linear model.
+///
+/// # Errors
+///
+/// [`ModelError`].
+pub fn energy(model: &Model, u: &[f64]) -> Result<f64, ModelError> {
+    let mut state = StateStore::new(model.elements());
+    let mut out = Assembled::default();
+    let ctx = EvaluationContext::new(Operator::None);
+    let mut assembler = Assembler::new(model, &Conditions::new(model));
+    assembler.evaluate(model, u, &mut state, &ctx, &mut out)?;
+    Ok(0.5 * u.iter().zip(&out.internal).map(|(u, f)| u * f).sum::<f64>())
 }

@@ -82,20 +82,29 @@ pub fn hexahedra(
     rule: HexRule,
     law: &Arc<dyn Material<Solid>>,
 ) -> Result<Vec<Box<dyn Element>>, ElementError> {
-    let mut elements: Vec<Box<dyn Element>> = Vec::new();
+    let mut elements = Vec::new();
     for block in mesh.blocks().iter().filter(|b| b.kind == CellKind::Hex20) {
-        for (nodes, coords) in cells(mesh, block) {
-            let law = Arc::clone(law);
-            elements.push(Box::new(Hex20::new(
-                nodes,
-                &coords,
-                rule,
-                law,
-                BandWidth::CubeRoot,
-            )?));
-        }
+        elements.extend(hexahedra_of(mesh, block, rule, law)?);
     }
     Ok(elements)
+}
+
+/// One element of the given law in every cell of a block of hexahedra.
+///
+/// # Errors
+///
+/// [`ElementError::Jacobian`] for a distorted cell.
+pub fn hexahedra_of(
+    mesh: &Mesh,
+    block: &Block,
+    rule: HexRule,
+    law: &Arc<dyn Material<Solid>>,
+) -> Result<Vec<Box<dyn Element>>, ElementError> {
+    let element = |(nodes, coords)| {
+        let element = Hex20::new(nodes, &coords, rule, Arc::clone(law), BandWidth::CubeRoot)?;
+        Ok(Box::new(element) as Box<dyn Element>)
+    };
+    cells(mesh, block).map(element).collect()
 }
 
 /// Faces of hexahedra all of whose nodes satisfy `test`: nodes in the order of an outward quadrilateral.
