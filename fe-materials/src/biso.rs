@@ -5,6 +5,7 @@ use fe_core::material::{
     Material, MaterialError, Operator, PointContext, PointReport, Response, StateVar,
 };
 use nalgebra::{Matrix1, Vector1};
+use serde::Deserialize;
 
 use crate::limits::{finite, out_of_range, positive};
 
@@ -17,7 +18,7 @@ const COLD_WORKED_YIELD: f64 = 0.85;
 const COLD_WORKED_STRAIN: f64 = 0.010;
 
 /// How the elastic range of a bar moves with plastic strain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 pub enum Hardening {
     /// The range grows: yielding in one direction raises the yield stress in both.
     #[default]
@@ -286,7 +287,7 @@ mod tests {
         assert_abs_diff_eq!(stresses[0], 350.0, epsilon = 1e-9);
     }
 
-    /// Contract of a law, 10^4 random steps: tangent, dissipation, repeatability.
+    /// Contract of a law, 10^4 random paths each: tangent, dissipation, repeatability.
     #[test]
     fn conforms() {
         let bar = Biso::hot_rolled(200e3, 460.0, 2e3).unwrap();
@@ -296,7 +297,8 @@ mod tests {
             Biso::hot_rolled(200e3, 460.0, 0.0).unwrap(),
         ] {
             let check = MaterialCheck {
-                paths: 250,
+                paths: 10_000,
+                steps: 10,
                 ..MaterialCheck::new(2e-2)
             };
             let report = check_material(&law, &check).unwrap();

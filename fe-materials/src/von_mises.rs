@@ -163,6 +163,8 @@ mod tests {
     //! Protects the radial return and its tangent.
     use fe_core::testing::{MaterialCheck, check_isotropy, check_material};
     use nalgebra::Vector6;
+    use proptest::array::uniform6;
+    use proptest::prelude::*;
 
     use super::*;
 
@@ -172,12 +174,13 @@ mod tests {
         VonMises::new(YOUNG, 0.3, 400.0, hardening).unwrap()
     }
 
-    /// Contract of a law on 10^4 random steps: tangent to 1e-6, dissipation, repeatability; isotropy.
+    /// Contract of a law on 10^4 random paths each: tangent to 1e-6, dissipation, repeatability; isotropy.
     #[test]
     fn conforms() {
         for hardening in [0.0, 2e3] {
             let check = MaterialCheck {
-                paths: 250,
+                paths: 10_000,
+                steps: 10,
                 ..MaterialCheck::new(1e-2)
             };
             let report = check_material(&law(hardening), &check).unwrap();
@@ -204,20 +207,37 @@ mod tests {
         assert!((state[6] - plastic / 3.0_f64.sqrt()).abs() < 1e-15);
     }
 
-    /// After every return the stress is on the yield surface: |q - sigma_y| <= 1e-12 sigma_y.
-    #[test]
-    fn returned_stress_is_on_the_surface() {
-        let law = law(2e3);
-        let strain = Vector6::new(0.01, -0.02, 0.003, 0.01, -0.005, 0.002);
-        let mut state = [0.0; 7];
-        let s = law
-            .update(&strain, &[0.0; 7], &mut state, &PointContext::new(1.0))
-            .unwrap()
-            .stress;
-        let mean = (s[0] + s[1] + s[2]) / 3.0;
-        let deviator = s - Vector6::new(mean, mean, mean, 0.0, 0.0, 0.0);
-        let q = (1.5 * squared_norm(&deviator)).sqrt();
-        assert!((q / law.strength(state[6]) - 1.0).abs() < 1e-12);
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(10_000))]
+
+        /// After a return the stress is on the yield surface, and the plastic strain keeps the volume. A
+        /// step and its two halves differ by a term of second order: |2 G d_eps|^2/sigma_y at most.
+        #[test]
+        fn return_is_on_the_surface_and_of_first_order(
+            first in uniform6(-0.02..0.02),
+            second in uniform6(-1e-4..1e-4),
+        ) {
+            let law = law(2e3);
+            let update = |strain: Vector6<f64>, committed: &[f64; 7]| {
+                let (ctx, mut state) = (PointContext::new(1.0), [0.0; 7]);
+                let r = law.update(&strain, committed, &mut state, &ctx);
+                (r.unwrap().stress, state)
+            };
+            let first = Vector6::from(first);
+            let (s, state) = update(first, &[0.0; 7]);
+            let mean = (s[0] + s[1] + s[2]) / 3.0;
+            let deviator = s - Vector6::new(mean, mean, mean, 0.0, 0.0, 0.0);
+            let q = (1.5 * squared_norm(&deviator)).sqrt();
+            prop_assert!(q / law.strength(state[6]) < 1.0 + 1e-12);
+            prop_assert!((state[0] + state[1] + state[2]).abs() < 1e-15);
+
+            let increment = Vector6::from(second);
+            let whole = update(first + increment, &state).0;
+            let (_, half) = update(first + 0.5 * increment, &state);
+            let halves = update(first + increment, &half).0;
+            let elastic = 2.0 * law.elastic.shear * increment.norm();
+            prop_assert!((whole - halves).norm() < elastic * elastic / law.yield_stress);
+        }
     }
 
     #[test]

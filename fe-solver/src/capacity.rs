@@ -13,6 +13,8 @@ pub struct PathPoint {
     pub residual: f64,
     /// Accepted without meeting the criterion.
     pub flagged: bool,
+    /// Reached by a jump at a held load factor, where no static equilibrium lies near the step before.
+    pub jump: bool,
 }
 
 /// Fall from the running maximum after which the path before it holds the capacity.
@@ -29,8 +31,11 @@ pub struct Capacity {
     pub fell: bool,
     /// Index of the first local maximum followed by a fall of [`DROP_FALL`].
     pub first_drop: Option<usize>,
-    /// Largest fall after the peak, relative to it, within the path.
+    /// Largest fall after the peak, relative to it, before the load exceeds the peak again.
     pub post_peak_drop: f64,
+    /// Whether a single jump of that part of the path falls by [`DROP_FALL`] of the peak: the drop is
+    /// vertical, no static equilibrium exists along it.
+    pub vertical_drop: bool,
 }
 
 impl Capacity {
@@ -53,15 +58,17 @@ impl Capacity {
             }
         }
         let peak = path.get(best)?;
-        let lowest = path[best..]
-            .iter()
-            .map(|p| p.load)
-            .fold(peak.load, f64::min);
+        let beyond = path[best..].iter().position(|p| p.load > peak.load);
+        let after = &path[best..beyond.map_or(path.len(), |n| best + n)];
+        let lowest = after.iter().map(|p| p.load).fold(peak.load, f64::min);
         Some(Self {
             peak: best,
             fell,
             first_drop,
             post_peak_drop: relative_fall(peak.load, lowest),
+            vertical_drop: after
+                .windows(2)
+                .any(|pair| pair[1].jump && pair[0].load - pair[1].load >= DROP_FALL * peak.load),
         })
     }
 }
@@ -105,77 +112,84 @@ pub struct Verdict {
     pub trust: Trust,
     /// Why, in one sentence.
     pub reason: String,
-    /// P* - P at the last step up to the peak that met the criterion.
-    pub gap: f64,
+    /// P* - P at the last step up to the peak that met the criterion without a jump; `None` without
+    /// such a step.
+    pub gap: Option<f64>,
     /// Flagged steps up to the peak.
     pub flagged: usize,
+    /// Jumps up to the peak.
+    pub jumps: usize,
     /// Largest residual up to the peak.
     pub max_residual: f64,
 }
 
 impl Verdict {
-    /// Judges the path up to `peak`.
+    /// Judges the path up to the peak of `capacity`; of the whole path if it has no such point.
     ///
     /// No trust when more than 10 % of the steps up to the peak are flagged, a flagged residual exceeds
-    /// 0.03, or P* differs from P by more than 3 % at the last step before the peak that met the
-    /// criterion; limited trust when any step is flagged.
-    pub fn of(path: &[PathPoint], peak: usize) -> Self {
-        let before = &path[..=peak];
+    /// 0.03, or P* differs from P by more than 3 % at the last step up to the peak that met the
+    /// criterion. That step is no jump: across a jump P* is the work of forces no static state
+    /// balances, not an error of the load. Limited trust when a step is flagged, when the path jumps
+    /// before the peak (beyond a jump other equilibrium branches may exist), or when the load is
+    /// largest at the end of the path.
+    pub fn of(path: &[PathPoint], capacity: &Capacity) -> Self {
+        let before = path.get(..=capacity.peak).unwrap_or(path);
+        let steps = before.len();
+        let worst = |points: &mut dyn Iterator<Item = &PathPoint>| {
+            points.map(|p| p.residual).fold(0.0, f64::max)
+        };
         let flagged = before.iter().filter(|p| p.flagged).count();
-        let max_residual = before.iter().map(|p| p.residual).fold(0.0, f64::max);
-        let worst = before
-            .iter()
-            .filter(|p| p.flagged)
-            .map(|p| p.residual)
-            .fold(0.0, f64::max);
-        let last = before.iter().rev().find(|p| !p.flagged);
-        let gap = last.map_or(f64::NAN, |p| p.work_conjugate_load - p.load);
-        let relative = last.map_or(f64::INFINITY, |p| (gap / p.load).abs());
-        let share = flagged as f64 / before.len() as f64;
-        let (trust, reason) = if share > MAX_FLAGGED_SHARE {
-            (
-                Trust::Low,
-                format!(
-                    "{flagged} of {} steps up to the peak miss the criterion",
-                    before.len()
-                ),
-            )
-        } else if worst > MAX_FLAGGED_RESIDUAL {
-            (
-                Trust::Low,
-                format!("a step before the peak has a relative residual of {worst:.1e}"),
-            )
+        let jumps = before.iter().filter(|p| p.jump).count();
+        let worst_flagged = worst(&mut before.iter().filter(|p| p.flagged));
+        let last = before.iter().rev().find(|p| !p.flagged && !p.jump);
+        let gap = last.map(|p| p.work_conjugate_load - p.load);
+        let relative = last.map_or(f64::NAN, |p| {
+            ((p.work_conjugate_load - p.load) / p.load).abs()
+        });
+        let (trust, reason) = if flagged as f64 > MAX_FLAGGED_SHARE * steps as f64 {
+            let reason = format!("{flagged} of {steps} steps up to the peak miss the criterion");
+            (Trust::Low, reason)
+        } else if worst_flagged > MAX_FLAGGED_RESIDUAL {
+            let reason =
+                format!("a step before the peak has a relative residual of {worst_flagged:.1e}");
+            (Trust::Low, reason)
         } else if relative > MAX_LOAD_GAP {
-            (
-                Trust::Low,
-                format!(
-                    "work-conjugate load and load differ by {:.1} % at the peak",
-                    100.0 * relative
-                ),
-            )
+            let reason = format!(
+                "work-conjugate load and load differ by {:.1} % at the peak",
+                100.0 * relative
+            );
+            (Trust::Low, reason)
+        } else if relative.is_nan() {
+            let reason = "no loaded step up to the peak meets the criterion".to_owned();
+            (Trust::Low, reason)
         } else if flagged > 0 {
-            (
-                Trust::Limited,
-                format!(
-                    "{flagged} of {} steps up to the peak miss the criterion, residual at most {worst:.1e}",
-                    before.len()
-                ),
-            )
+            let reason = format!(
+                "{flagged} of {steps} steps up to the peak miss the criterion, residual at most \
+                 {worst_flagged:.1e}"
+            );
+            (Trust::Limited, reason)
+        } else if jumps > 0 {
+            let reason = format!(
+                "{jumps} of {steps} steps up to the peak are jumps, beyond which other branches may exist"
+            );
+            (Trust::Limited, reason)
+        } else if capacity.peak + 1 == path.len() {
+            let reason = "the load is largest at the end of the path, a lower bound of the peak";
+            (Trust::Limited, reason.to_owned())
         } else {
-            (
-                Trust::High,
-                format!(
-                    "every step up to the peak meets the criterion; work-conjugate load within {:.1} %",
-                    100.0 * relative
-                ),
-            )
+            let reason = format!(
+                "every step up to the peak meets the criterion; work-conjugate load within {:.1} %",
+                100.0 * relative
+            );
+            (Trust::High, reason)
         };
         Self {
             trust,
             reason,
             gap,
             flagged,
-            max_residual,
+            jumps,
+            max_residual: worst(&mut before.iter()),
         }
     }
 }
@@ -192,6 +206,7 @@ mod tests {
             work_conjugate_load: load * 1.001,
             residual: 5e-4,
             flagged: false,
+            jump: false,
         };
         loads.iter().enumerate().map(point).collect()
     }
@@ -209,15 +224,62 @@ mod tests {
     }
 
     #[test]
+    fn the_drop_after_the_peak_ends_where_the_load_exceeds_it_again() {
+        let c = Capacity::of(&path(&[0.0, 100.0, 79.0, 150.0, 10.0])).unwrap();
+        assert_eq!((c.peak, c.fell), (1, true));
+        assert!((c.post_peak_drop - 0.21).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_drop_is_vertical_where_a_jump_takes_a_twentieth_of_the_peak() {
+        let mut p = path(&[0.0, 100.0, 98.0, 60.0]);
+        assert!(!Capacity::of(&p).unwrap().vertical_drop);
+        p[2].jump = true;
+        assert!(!Capacity::of(&p).unwrap().vertical_drop);
+        p[3].jump = true;
+        assert!(Capacity::of(&p).unwrap().vertical_drop);
+    }
+
+    /// A path of 30 steps whose peak is the last but one.
+    fn peaked() -> Vec<PathPoint> {
+        let mut loads = [1.0; 30];
+        loads[28] = 2.0;
+        path(&loads)
+    }
+
+    fn trust(path: &[PathPoint]) -> Trust {
+        Verdict::of(path, &Capacity::of(path).unwrap()).trust
+    }
+
+    #[test]
     fn trust_falls_with_flagged_steps_and_with_the_load_gap() {
-        let mut p = path(&[1.0; 30]);
-        assert_eq!(Verdict::of(&p, 29).trust, Trust::High);
+        let mut p = peaked();
+        assert_eq!(trust(&p), Trust::High);
         p[3].flagged = true;
-        assert_eq!(Verdict::of(&p, 29).trust, Trust::Limited);
+        assert_eq!(trust(&p), Trust::Limited);
         p[3].residual = 0.05;
-        assert_eq!(Verdict::of(&p, 29).trust, Trust::Low);
-        let mut gap = path(&[1.0; 30]);
-        gap[29].work_conjugate_load = 1.05;
-        assert_eq!(Verdict::of(&gap, 29).trust, Trust::Low);
+        assert_eq!(trust(&p), Trust::Low);
+        let mut many = peaked();
+        many[..3].iter_mut().for_each(|p| p.flagged = true);
+        assert_eq!(trust(&many), Trust::Low);
+        let mut gap = peaked();
+        gap[28].work_conjugate_load = 2.1;
+        assert_eq!(trust(&gap), Trust::Low);
+    }
+
+    #[test]
+    fn a_jump_limits_trust_and_its_work_is_no_load_gap() {
+        let mut p = peaked();
+        p[28].jump = true;
+        p[28].work_conjugate_load = -1400.0;
+        let verdict = Verdict::of(&p, &Capacity::of(&p).unwrap());
+        assert_eq!((verdict.trust, verdict.jumps), (Trust::Limited, 1));
+        assert!(verdict.gap.is_some_and(|gap| (gap - 0.001).abs() < 1e-12));
+    }
+
+    #[test]
+    fn a_path_without_a_peak_earns_no_high_trust() {
+        assert_eq!(trust(&path(&[0.0, 1.0, 2.0])), Trust::Limited);
+        assert_eq!(trust(&path(&[0.0])), Trust::Low);
     }
 }

@@ -1,15 +1,15 @@
 //! The command line: results go to standard output, messages to standard error.
 
 use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 use clap::{Parser, Subcommand};
-use miette::{MietteHandlerOpts, Report};
+use miette::{MietteHandlerOpts, Report, miette};
 
 use crate::exit::Exit;
 use crate::input::{InputError, load, load_all};
 use crate::options::RunOptions;
-use crate::spec::BUILTIN;
-use crate::{list, output, run};
+use crate::{list, output, point, run};
 
 /// Reinforced-concrete beams of Khalifa (1999), simulated from first crack to failure.
 ///
@@ -44,6 +44,15 @@ enum Command {
         #[command(flatten)]
         options: RunOptions,
     },
+    /// Drive a material point and write strains, stresses and internal variables as CSV
+    Point {
+        /// Case file: a law and a program of strains and stresses
+        #[arg(value_name = "CASE")]
+        case: PathBuf,
+        /// File to write, made anew; without it, standard output
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
 }
 
 /// Runs the program with the arguments of the process.
@@ -58,84 +67,92 @@ pub fn main() -> Exit {
     }));
     // Fails only when a handler is already in place, which serves as well.
     drop(hook);
-    match Cli::parse().command {
+    let done = match Cli::parse().command {
         Command::List { json } => list_beams(json),
         Command::Check { files } => check(&files),
         Command::Run { beams, options } => run_beams(&beams, &options),
-    }
-}
-
-fn list_beams(json: bool) -> Exit {
-    let all: Vec<String> = BUILTIN.iter().map(|(name, _)| (*name).into()).collect();
-    let specimens = match load_all(&all) {
-        Ok(specimens) => specimens,
-        Err(errors) => return report_all(errors),
+        Command::Point { case, output } => drive_point(&case, output.as_deref()),
     };
-    let rows: Vec<list::Row> = specimens.iter().map(list::Row::from).collect();
-    if !json {
-        return print(&list::table(&rows));
-    }
-    match serde_json::to_string_pretty(&rows) {
-        Ok(text) => print(&format!("{text}\n")),
-        Err(error) => fail(Exit::File, miette::miette!("{error}")),
-    }
+    done.unwrap_or_else(|Shown(exit)| exit)
 }
 
-fn check(files: &[String]) -> Exit {
+/// An error that has been shown, and how the program ends because of it.
+struct Shown(Exit);
+
+fn list_beams(json: bool) -> Result<Exit, Shown> {
+    let specimens = load_all(&["all".into()]).map_err(show_all)?;
+    let rows: Vec<list::Row> = specimens.iter().map(list::Row::from).collect();
+    let text = if json {
+        let text = serde_json::to_string_pretty(&rows);
+        text.map_err(|error| show(Exit::File, miette!("{error}")))? + "\n"
+    } else {
+        list::table(&rows)
+    };
+    print(text)
+}
+
+fn check(files: &[String]) -> Result<Exit, Shown> {
     let mut bad = 0;
-    let mut exit = Exit::Done;
+    let mut gravest = Exit::Done;
     for file in files {
-        exit = exit.max(match load(file) {
-            Ok(specimen) => print(&format!("{file}: ok, beam {}\n", specimen.name)),
+        match load(file) {
+            Ok(specimen) => {
+                print(format!("{file}: ok, beam {}\n", specimen.name))?;
+            }
             Err(errors) => {
                 bad += 1;
-                report_all(errors)
+                gravest = gravest.max(show_all(errors).0);
             }
-        });
+        }
     }
     eprintln!("{} checked, {bad} bad", files.len());
-    exit
+    Ok(gravest)
 }
 
-fn run_beams(beams: &[String], options: &RunOptions) -> Exit {
-    let specimens = match load_all(beams) {
-        Ok(specimens) => specimens,
-        Err(errors) => {
-            let exit = report_all(errors);
-            eprintln!("nothing was run");
-            return exit;
+fn run_beams(beams: &[String], options: &RunOptions) -> Result<Exit, Shown> {
+    let specimens = load_all(beams).map_err(|errors| {
+        let shown = show_all(errors);
+        eprintln!("nothing was run");
+        shown
+    })?;
+    output::prepare(&options.output).map_err(|error| show(Exit::File, error))?;
+    run::run_all(&specimens, options).map_err(|error| show(error.exit(), error))
+}
+
+fn drive_point(case: &Path, output: Option<&Path>) -> Result<Exit, Shown> {
+    let run = point::run(case).map_err(|error| show(error.exit(), error))?;
+    let mut table = Vec::new();
+    let written = run.history.write_csv(&mut table);
+    written.map_err(|error| show(Exit::File, miette!("{error}")))?;
+    match output {
+        None => print(&table)?,
+        Some(path) => {
+            output::write(path, &table).map_err(|error| show(Exit::File, error))?;
+            Exit::Done
         }
     };
-    if let Err(error) = output::prepare(&options.output) {
-        return fail(Exit::File, error);
-    }
-    match run::run_all(&specimens, options) {
-        Ok(exit) => exit,
-        Err(error) => fail(error.exit(), error),
-    }
+    let stopped = |error| show(Exit::StoppedEarly, miette!("{error}"));
+    run.result.map_err(stopped).map(|()| Exit::Done)
 }
 
 /// Writes to standard output; a reader that has gone away is no error.
-fn print(text: &str) -> Exit {
-    match io::stdout().lock().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => fail(
+fn print(text: impl AsRef<[u8]>) -> Result<Exit, Shown> {
+    match io::stdout().lock().write_all(text.as_ref()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(show(
             Exit::File,
-            miette::miette!("cannot write to standard output: {error}"),
-        ),
-        _ => Exit::Done,
+            miette!("cannot write to standard output: {error}"),
+        )),
+        _ => Ok(Exit::Done),
     }
 }
 
-/// Shows all errors; ends as the gravest asks for.
-fn report_all(errors: Vec<InputError>) -> Exit {
-    errors
-        .into_iter()
-        .map(|error| fail(error.exit(), error))
-        .max()
-        .unwrap_or(Exit::BadInput)
+/// Shows all errors; the program ends as the gravest asks for.
+fn show_all(errors: Vec<InputError>) -> Shown {
+    let exits = errors.into_iter().map(|error| show(error.exit(), error).0);
+    Shown(exits.max().unwrap_or(Exit::BadInput))
 }
 
-fn fail(exit: Exit, error: impl Into<Report>) -> Exit {
+fn show(exit: Exit, error: impl Into<Report>) -> Shown {
     eprintln!("{:?}", error.into());
-    exit
+    Shown(exit)
 }

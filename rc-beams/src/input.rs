@@ -6,7 +6,8 @@ use std::{fs, io};
 use miette::Diagnostic;
 
 use crate::exit::Exit;
-use crate::spec::{BUILTIN, SpecError, Specimen, read};
+use crate::ronfile::RonError;
+use crate::spec::{BUILTIN, Specimen, read};
 use crate::suggest::nearest;
 
 /// What is wrong with a beam named on the command line.
@@ -35,10 +36,7 @@ pub enum InputError {
     },
     /// A file that cannot be read.
     #[error("cannot read {}", path.display())]
-    #[diagnostic(
-        code(rc_beams::file),
-        help("check the path; `rc-beams list` names the beams that need no file")
-    )]
+    #[diagnostic(code(rc_beams::file), help("check the path"))]
     File {
         /// The file.
         path: PathBuf,
@@ -48,7 +46,7 @@ pub enum InputError {
     /// A file whose content is wrong.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Spec(#[from] SpecError),
+    Content(#[from] RonError),
 }
 
 impl InputError {
@@ -57,7 +55,7 @@ impl InputError {
         match self {
             Self::UnknownBeam { .. } | Self::Twice { .. } => Exit::Usage,
             Self::File { .. } => Exit::File,
-            Self::Spec(_) => Exit::BadInput,
+            Self::Content(_) => Exit::BadInput,
         }
     }
 }
@@ -97,21 +95,31 @@ pub fn load_all(names: &[String]) -> Result<Vec<Specimen>, Vec<InputError>> {
 ///
 /// Everything wrong with it.
 pub fn load(name: &str) -> Result<Specimen, Vec<InputError>> {
-    let builtin = BUILTIN.iter().find(|(known, _)| *known == name);
-    let text = match builtin {
-        Some((_, text)) => (*text).to_string(),
-        None => read_file(name).map_err(|error| vec![error])?,
-    };
+    let text = text(name).map_err(|error| vec![error])?;
     read(name, &text).map_err(|errors| errors.into_iter().map(InputError::from).collect())
 }
 
-fn read_file(name: &str) -> Result<String, InputError> {
-    let path = Path::new(name);
-    let looks_like_file =
-        path.extension().is_some_and(|e| e == "ron") || path.components().count() > 1;
-    if !looks_like_file && !path.exists() {
-        return Err(unknown(name));
+fn text(name: &str) -> Result<String, InputError> {
+    if let Some((_, text)) = BUILTIN.iter().find(|(known, _)| *known == name) {
+        return Ok((*text).into());
     }
+    let path = Path::new(name);
+    let names_a_file = path.extension().is_some_and(|e| e == "ron")
+        || path.components().count() > 1
+        || path.exists();
+    if names_a_file {
+        read_file(path)
+    } else {
+        Err(unknown(name))
+    }
+}
+
+/// The text of a file.
+///
+/// # Errors
+///
+/// [`InputError::File`].
+pub(crate) fn read_file(path: &Path) -> Result<String, InputError> {
     fs::read_to_string(path).map_err(|source| InputError::File {
         path: path.into(),
         source,

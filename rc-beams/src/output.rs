@@ -1,16 +1,16 @@
-//! The folder of the results.
+//! Files and folders of the results.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use miette::Diagnostic;
 
-/// A folder that cannot hold results.
+/// A file or folder that cannot be written.
 #[derive(Debug, thiserror::Error, Diagnostic)]
-#[error("cannot write into the folder {}", path.display())]
-#[diagnostic(code(rc_beams::output), help("choose another folder with --output"))]
+#[error("cannot write {}", path.display())]
+#[diagnostic(code(rc_beams::output), help("choose another place with --output"))]
 pub struct OutputError {
-    /// The folder.
+    /// The file or folder.
     pub path: PathBuf,
     /// Why.
     pub source: io::Error,
@@ -29,4 +29,16 @@ pub fn prepare(path: &Path) -> Result<(), OutputError> {
             path: path.into(),
             source,
         })
+}
+
+/// Writes a file, anew if it exists.
+///
+/// # Errors
+///
+/// [`OutputError`] if it cannot be written.
+pub fn write(path: &Path, content: &[u8]) -> Result<(), OutputError> {
+    fs::write(path, content).map_err(|source| OutputError {
+        path: path.into(),
+        source,
+    })
 }

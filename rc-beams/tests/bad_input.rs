@@ -109,21 +109,24 @@ const CASES: &[Case] = &[
         "length_mm: 3050,0,",
         "3050,0",
         &[
-            "beam: a number with a decimal comma",
+            "beam.length_mm: a number with a decimal comma",
             "use a decimal point: 3050.0",
         ],
     ),
     (
         "length_mm: 3050,",
         "length_mm: 3050 mm,",
-        "mm,",
-        &["a number with a unit behind it", "leave the unit away"],
+        "3050 mm",
+        &[
+            "beam.length_mm: a number with a unit behind it",
+            "write 3050 alone",
+        ],
     ),
     (
         "load: TotalReactions",
         "load: InnerShear(load: 1.5, end_support: 1)",
-        ".5",
-        &["a fraction; allowed: whole numbers"],
+        "1.5",
+        &["measuring.load.InnerShear.load: a fraction; allowed: whole numbers"],
     ),
     // Not a number.
     (
@@ -204,7 +207,7 @@ const CASES: &[Case] = &[
         "held: []",
         "",
         &[
-            "supports: 1 supports hold Uy; allowed: at least 2",
+            "supports: supports that hold Uy: 1; allowed: at least 2",
             "add a support with `held: [Uy]`",
         ],
     ),
@@ -213,7 +216,7 @@ const CASES: &[Case] = &[
         "held: [Uy]",
         "",
         &[
-            "no support holds Ux; allowed: at least 1",
+            "supports that hold Ux: 0; allowed: at least 1",
             "write `held: [Ux, Uy]` at one support",
         ],
     ),
@@ -311,7 +314,15 @@ fn mistakes_in_a_file_are_named_with_their_place() {
 /// Arguments, exit code, words of the message.
 type Arguments = (&'static [&'static str], i32, &'static [&'static str]);
 
+const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/cyclic-bar.ron");
+
 const COMMANDS: &[Arguments] = &[
+    (&["point", "missing.ron"], 4, &["cannot read missing.ron"]),
+    (
+        &["point", CASE, "-o", "file/x.csv"],
+        4,
+        &["cannot write file/x.csv"],
+    ),
     (&["run"], 2, &["<BEAM>..."]),
     (
         &["run", "A-SO31"],
@@ -340,12 +351,12 @@ const COMMANDS: &[Arguments] = &[
     (
         &["run", "A-SO3-1", "-o", "file"],
         4,
-        &["cannot write into the folder file", "--output"],
+        &["cannot write file", "--output"],
     ),
     (
         &["run", "A-SO3-1", "-o", "file/below"],
         4,
-        &["cannot write into the folder file/below"],
+        &["cannot write file/below"],
     ),
     (
         &["run", "A-SO3-1", "--mesh", "0x4x1"],

@@ -7,20 +7,13 @@ use fe_core::material::{
 use fe_core::voigt::{principal, strain_voigt, stress_tensor};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use super::elasticity::Elasticity;
-use super::limits::finite;
-use super::plastic_state::{PLASTIC_VARS, PlasticState};
+use super::plastic_state::{PLASTIC_VARS, PlasticState, RETURN_TOLERANCE, YIELD_TOLERANCE};
 use super::root::bracketed_root;
 use super::{Calibration, CompressionCurve, ConcreteScalars, Ottosen};
+use crate::elasticity::Elasticity;
+use crate::limits::finite;
 
 const LAW: &str = "isochoric Ottosen plasticity";
-
-/// Overshoot of the yield condition that still counts as elastic, relative to fcm: above the tolerance of
-/// the return, so that a returned stress is elastic at the same strain.
-const YIELD_TOLERANCE: f64 = 1e-11;
-
-/// Tolerance of the return, relative to fcm.
-const RETURN_TOLERANCE: f64 = 2e-13;
 
 /// Plasticity with the Ottosen surface on the compressive part of the stress and isochoric flow.
 ///
@@ -33,15 +26,15 @@ const RETURN_TOLERANCE: f64 = 2e-13;
 /// Backward Euler keeps the mean stress p and the direction of the trial deviator,
 /// sigma = p 1 + rho s_tr with rho = 1 - 3G dlam/q_tr, which leaves one equation
 ///
-/// $$ F(\mathrm{neg}(p\,1 + \rho\,s_{tr})) = \bar s(\kappa_n + \Delta\lambda), $$
+/// $$ F(\mathrm{neg}(p 1 + \rho s_{tr})) = \bar s(\kappa_n + \Delta\lambda), $$
 ///
 /// solved for eta = eps/eps_c1 of the curve, where it has no infinite slope; rho from 1 to 0 brackets a
 /// root, so the return cannot fail. Consistent tangent, with N = dF(neg)/dsigma, H = dsbar/dkappa and
 /// c = 3G dlam/q_tr:
 ///
-/// $$ D_{ep} = M - \frac{3G}{q_{tr}}\,
+/// $$ D_{ep} = M - \frac{3G}{q_{tr}}
 ///    \frac{s_{tr} \otimes (N : M)}{H + \frac{3G}{q_{tr}} N : s_{tr}}, \qquad
-///    M = K\,1 \otimes 1 + 2G\rho\,P_{dev} + \frac{3G c}{q_{tr}^2}\, s_{tr} \otimes s_{tr}, $$
+///    M = K 1 \otimes 1 + 2G\rho P_{dev} + \frac{3G c}{q_{tr}^2} s_{tr} \otimes s_{tr}, $$
 ///
 /// unsymmetric. Uniaxial compression reproduces the curve exactly for any step size.
 ///
@@ -62,15 +55,15 @@ pub struct Isochoric {
 /// A stress on or inside the yield surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PlasticReturn {
-    /// Stress [MPa].
+    /// Stress (MPa).
     pub(crate) stress: Vector6<f64>,
-    /// Principal stresses [MPa], descending.
+    /// Principal stresses (MPa), descending.
     pub(crate) principal: Vector3<f64>,
     /// Principal axes, columns; the same for trial and returned stress.
     pub(crate) axes: Matrix3<f64>,
     /// New internal variables.
     pub(crate) state: PlasticState,
-    /// Operator asked for [MPa].
+    /// Operator asked for (MPa).
     pub(crate) tangent: Matrix6<f64>,
 }
 
@@ -99,6 +92,10 @@ impl Isochoric {
         &self.curve
     }
 
+    pub(crate) const fn elastic(&self) -> &Elasticity {
+        &self.elastic
+    }
+
     /// Stress, state and operator at a total strain, hardening along `curve`.
     pub(crate) fn respond(
         &self,
@@ -119,26 +116,24 @@ impl Isochoric {
         if principal[2] >= 0.0 {
             return Ok(elastic);
         }
-        let fcm = self.surface.strength();
         let eta = curve.eta(committed.kappa);
-        let limit = curve.at(eta).stress + YIELD_TOLERANCE * fcm;
-        if self
+        let limit = curve.at(eta).stress * (1.0 + YIELD_TOLERANCE);
+        let effective = self
             .surface
-            .principal_effective_stress(&negative(&principal))
-            <= limit
-        {
+            .principal_effective_stress(&negative(&principal));
+        if effective <= limit {
             return Ok(elastic);
         }
         let flow = Flow::new(&elastic, self.elastic.shear);
         let last = curve.eta(committed.kappa + flow.full);
-        let eta = bracketed_root((eta, last), eta, RETURN_TOLERANCE * fcm, |eta| {
+        let eta = bracketed_root((eta, last), eta, RETURN_TOLERANCE * effective, |eta| {
             let point = curve.at(eta);
             let rho = flow.rho(point.kappa - committed.kappa);
             let (f, gradient) = self.clipped_gradient(&flow.principal(rho));
             let slope = -gradient.dot(&flow.deviator) * point.kappa_slope / flow.full;
             Ok((f - point.stress, slope - point.stress_slope))
         })
-        .map_err(|failure| failure.of(LAW, fcm))?;
+        .map_err(|failure| failure.of(LAW, self.surface.strength()))?;
         let point = curve.at(eta);
         let increment = point.kappa - committed.kappa;
         let rho = flow.rho(increment);

@@ -6,16 +6,18 @@
 mod associated;
 mod hardening;
 mod isochoric;
+mod objective;
 mod ottosen;
 mod plastic_state;
+mod reference;
 mod root;
 mod scalars;
 mod spectral;
 
-use crate::{elasticity, limits};
-
 pub use associated::Associated;
 pub use hardening::{CompressionCurve, CurvePoint};
 pub use isochoric::Isochoric;
+pub use objective::Objective;
 pub use ottosen::{Calibration, Ottosen};
+pub use reference::{Reference, ReferenceParameters, ShearRetention, TensionStiffening};
 pub use scalars::ConcreteScalars;

@@ -2,8 +2,6 @@
 
 mod builtin;
 mod check;
-mod error;
-mod places;
 mod quantity;
 mod read;
 mod reinforcement;
@@ -11,7 +9,6 @@ mod specimen;
 
 pub use builtin::BUILTIN;
 pub use check::{Finding, check};
-pub use error::SpecError;
 pub use quantity::*;
 pub use read::read;
 pub use reinforcement::*;

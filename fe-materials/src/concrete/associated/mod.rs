@@ -1,6 +1,6 @@
 //! Associated plasticity of concrete on the Ottosen surface.
 
-mod resolvent;
+mod projection;
 
 use fe_core::kinematics::Solid;
 use fe_core::material::{
@@ -9,29 +9,22 @@ use fe_core::material::{
 use fe_core::voigt::{principal, stress_tensor, stress_voigt};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use super::elasticity::Elasticity;
-use super::limits::finite;
-use super::plastic_state::{PLASTIC_VARS, PlasticState};
+use super::plastic_state::{PLASTIC_VARS, PlasticState, RETURN_TOLERANCE, YIELD_TOLERANCE};
 use super::root::{NotConverged, bracketed_root};
 use super::spectral::{from_principal, spin_quotients};
-use super::{Calibration, CompressionCurve, ConcreteScalars, Ottosen};
-use resolvent::{Resolvent, Returned};
+use super::{Calibration, CompressionCurve, ConcreteScalars, CurvePoint, Ottosen};
+use crate::elasticity::Elasticity;
+use crate::limits::finite;
+use projection::{Projected, Projection};
 
 const LAW: &str = "associated Ottosen plasticity";
-
-/// Overshoot of the yield condition that still counts as elastic, relative to fcm: above the tolerance of
-/// the return, so that a returned stress is elastic at the same strain.
-const YIELD_TOLERANCE: f64 = 1e-11;
-
-/// Tolerance of the return, relative to fcm.
-const RETURN_TOLERANCE: f64 = 2e-13;
 
 /// Associated plasticity with the Ottosen surface as loading surface.
 ///
 /// With the effective stress F of [`Ottosen`] and the curve sbar(kappa) of [`CompressionCurve`]:
 ///
 /// $$ F(\sigma) \le \bar s(\kappa), \qquad
-///    \dot\varepsilon_p = \dot\lambda\, \frac{\partial F}{\partial \sigma}, \qquad
+///    \dot\varepsilon_p = \dot\lambda \frac{\partial F}{\partial \sigma}, \qquad
 ///    \dot\kappa = \dot\lambda, $$
 ///
 /// the last because F is homogeneous of degree one: sigma : deps_p = F dlam = sbar dkappa. Uniaxial
@@ -42,13 +35,12 @@ const RETURN_TOLERANCE: f64 = 2e-13;
 /// only at a strain of a percent or so; and the dilatancy is large: in uniaxial compression the lateral
 /// plastic strain is four to five times the axial one. [`Isochoric`](super::Isochoric) has neither.
 ///
-/// **Return mapping** (backward Euler) in the principal axes of the trial stress. For a given dlam the
-/// returned stress is the unique minimum of the strictly convex
-/// Phi = 1/2 (sigma - sigma_tr) : C : (sigma - sigma_tr) + dlam F(sigma), found by Newton's method with a
-/// line search on Phi; the yield condition is then one monotone equation for eta = eps/eps_c1 of the curve,
-/// with a bracket. On the tensile hydrostatic axis F has a kink, the apex: the minimum lies there, with
-/// p = p_tr - 3 beta K dlam, if and only if the trial deviator is inside the cone of the apex, which is tested
-/// first.
+/// **Return mapping** (backward Euler) in the principal axes of the trial stress. The closest point on
+/// F = sbar in the norm of the elastic compliance is unique; in the coordinates mean stress, sqrt(J2) and Lode
+/// angle it comes from scalar equations with brackets, without a singularity on the meridians or at the apex on
+/// the tensile hydrostatic axis. The apex is the closest point if and only if the trial deviator lies in the
+/// cone of its normals, tested first. dlam(sbar(eta)) = kappa(eta) - kappa_n, with eta = eps/eps_c1 of the
+/// curve, is then one more equation with a bracket: the return cannot fail.
 ///
 /// **Consistent tangent** in those axes, with a = dF/dsigma, H = dsbar/dkappa and
 /// Q = (C + dlam d2F/dsigma2)^-1: Q - (Q a)(Q a)/(a Q a + H) for the principal strains, and
@@ -57,21 +49,13 @@ const RETURN_TOLERANCE: f64 = 2e-13;
 /// The secant operator is the elastic stiffness. The dissipation sbar dlam of a step is never negative; the
 /// free energy is that of the elastic strain.
 ///
-/// Sources: Ottosen (1977); fib Model Code 2010; convex form of the return after J. C. Simo and T. J. R.
-/// Hughes, "Computational Inelasticity" (1998), chapters 3 and 4.
+/// Sources: Ottosen (1977); fib Model Code 2010; closest-point projection after J. C. Simo and T. J. R. Hughes,
+/// "Computational Inelasticity" (1998), chapters 3 and 4.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Associated {
     elastic: Elasticity,
     surface: Ottosen,
     curve: CompressionCurve,
-}
-
-/// A return in principal axes with its hardening variable.
-struct Solution {
-    returned: Returned,
-    kappa: f64,
-    /// H = dsbar/dkappa [MPa].
-    hardening: f64,
 }
 
 impl Associated {
@@ -99,50 +83,47 @@ impl Associated {
         &self.curve
     }
 
-    fn solve(&self, trial: &Vector3<f64>, kappa: f64) -> Result<Solution, NotConverged> {
-        let resolvent = Resolvent::new(&self.surface, &self.elastic, *trial);
+    /// The new stress and the point of the curve that it lies on.
+    fn solve(
+        &self,
+        trial: &Vector3<f64>,
+        kappa: f64,
+    ) -> Result<(Projected, CurvePoint), NotConverged> {
+        let projection = Projection::new(&self.surface, &self.elastic, trial)?;
         let f = self.surface.principal_effective_stress(trial);
         let first = (kappa + f / self.elastic.young) / self.curve.peak_strain();
-        let bound = |eta: f64| resolvent.effective_bound(self.curve.at(eta).kappa - kappa);
+        // The energy norm of the projection bounds dlam by sigma_tr : C : sigma_tr/(2 s).
+        let energy = 0.5 * trial.dot(&(self.elastic.principal_compliance() * trial));
         let mut last = first;
-        while bound(last) > self.curve.at(last).stress {
+        let mut end = self.curve.at(last);
+        while energy > end.stress * (end.kappa - kappa) {
             last *= 2.0;
+            end = self.curve.at(last);
         }
         let bracket = (self.curve.eta(kappa), last);
-        let tolerance = RETURN_TOLERANCE * self.surface.strength();
-        let mut start = trial * (self.curve.at(first).stress / f);
+        let tolerance = RETURN_TOLERANCE * f / self.elastic.young;
         let eta = bracketed_root(bracket, first, tolerance, |eta| {
             let point = self.curve.at(eta);
-            let returned = resolvent.at(point.kappa - kappa, &start)?;
-            start = returned.stress;
-            let a = &returned.gradient;
-            let slope = -a.dot(&(returned.stiffness * a)) * point.kappa_slope - point.stress_slope;
-            Ok((returned.effective - point.stress, slope))
+            let projected = projection.onto(point.stress)?;
+            let slope = -point.stress_slope / projected.softening() - point.kappa_slope;
+            Ok((projected.dlam - (point.kappa - kappa), slope))
         })?;
         let point = self.curve.at(eta);
-        Ok(Solution {
-            returned: resolvent.at(point.kappa - kappa, &start)?,
-            kappa: point.kappa,
-            hardening: point.hardening_modulus(),
-        })
+        Ok((projection.onto(point.stress)?, point))
     }
 
     fn tangent(
         &self,
         axes: &Matrix3<f64>,
         trial: &Vector3<f64>,
-        solution: &Solution,
+        projected: &Projected,
+        hardening: f64,
     ) -> Matrix6<f64> {
-        let Returned {
-            stress,
-            gradient,
-            stiffness,
-            ..
-        } = &solution.returned;
-        let qa = stiffness * gradient;
-        let normal = stiffness - qa * qa.transpose() / (gradient.dot(&qa) + solution.hardening);
+        let qa = projected.stiffness * projected.gradient;
+        let divisor = projected.gradient.dot(&qa) + hardening;
+        let normal = projected.stiffness - qa * qa.transpose() / divisor;
         let slopes = normal * self.elastic.principal_compliance();
-        let spin = spin_quotients(trial, stress, &slopes);
+        let spin = spin_quotients(trial, &projected.stress, &slopes);
         from_principal(
             axes,
             &normal,
@@ -171,26 +152,25 @@ impl Material<Solid> for Associated {
         let mut state = PlasticState::read(committed);
         let predictor = self.elastic.stress(&(strain - state.strain));
         let (principal, axes) = principal(&stress_tensor(&predictor));
-        let fcm = self.surface.strength();
         let yield_stress = self.curve.at(self.curve.eta(state.kappa)).stress;
         let effective = self.surface.principal_effective_stress(&principal);
-        if effective <= yield_stress + YIELD_TOLERANCE * fcm {
+        if effective <= yield_stress * (1.0 + YIELD_TOLERANCE) {
             state.write(trial);
             return Ok(Response {
                 stress: predictor,
                 tangent: self.elastic.stiffness,
             });
         }
-        let solution = self
+        let (projected, point) = self
             .solve(&principal, state.kappa)
-            .map_err(|failure| failure.of(LAW, fcm))?;
-        let diagonal = Matrix3::from_diagonal(&solution.returned.stress);
+            .map_err(|failure| failure.of(LAW, self.surface.strength()))?;
+        let diagonal = Matrix3::from_diagonal(&projected.stress);
         let stress = stress_voigt(&(axes * diagonal * axes.transpose()));
         state.strain += self.elastic.strain(&(predictor - stress));
-        state.kappa = solution.kappa;
+        state.kappa = point.kappa;
         state.write(trial);
         let tangent = if ctx.operator == Operator::Tangent {
-            self.tangent(&axes, &principal, &solution)
+            self.tangent(&axes, &principal, &projected, point.hardening_modulus())
         } else {
             self.elastic.stiffness
         };

@@ -134,7 +134,7 @@ impl Ottosen {
         )
     }
 
-    /// Effective stress F [MPa] and its gradient [-] with respect to three principal stresses [MPa], in any
+    /// Effective stress F (MPa) and its gradient (-) with respect to three principal stresses (MPa), in any
     /// order; kinks as in [`Ottosen::gradient`].
     pub fn principal_gradient(&self, stress: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let q = Invariants::of_principal(stress);
@@ -145,37 +145,23 @@ impl Ottosen {
         (f, gradient)
     }
 
-    /// Gauge of the deviator of three principal stresses in the deviatoric section of the subdifferential of F
-    /// at the apex [MPa]: the smallest m such that the deviator is m times a member of it,
-    ///
-    /// m = max over the Lode angle f of 2 sqrt(J2) cos(f - t)/lambda(f).
-    ///
-    /// A stress is returned to the apex by a plastic strain dlam if and only if m <= 2G dlam (and the mean
-    /// stress stays positive).
-    pub fn deviatoric_gauge(&self, stress: &Vector3<f64>) -> f64 {
-        let q = Invariants::of_principal(stress);
-        if q.hydrostatic() {
-            return 0.0;
-        }
-        // The maximum is where the normal of the section points along t: f - arctan(-lambda_f/lambda) = t.
-        // Its left-hand side grows with f for a convex section.
-        let t = q.cos3t().acos() / 3.0;
-        let (mut low, mut high) = (t, std::f64::consts::FRAC_PI_3);
-        while high - low > 4.0 * f64::EPSILON {
-            let f = low.midpoint(high);
-            let (sin, cos) = (3.0 * f).sin_cos();
-            let lambda = self.lambda_derivatives(cos);
-            if f - (3.0 * sin * lambda.slope / lambda.value).atan() < t {
-                low = f;
-            } else {
-                high = f;
-            }
-        }
-        let f = low.midpoint(high);
-        2.0 * q.j2.sqrt() * (f - t).cos() / self.lambda((3.0 * f).cos())
+    /// lambda and its first two derivatives with respect to the Lode angle (rad).
+    pub(crate) fn polar_lambda(&self, angle: f64) -> [f64; 3] {
+        let (sin, cos) = (3.0 * angle).sin_cos();
+        let lambda = self.lambda_derivatives(cos);
+        [
+            lambda.value,
+            -3.0 * sin * lambda.slope,
+            9.0 * (sin * sin * lambda.curvature - cos * lambda.slope),
+        ]
     }
 
-    /// F [MPa], gradient [-] and Hessian [1/MPa] with respect to three principal stresses.
+    /// F and S = 2 F - A (MPa) for given lambda, sqrt(J2) and I1.
+    pub(crate) fn polar_value(&self, lambda: f64, r: f64, i1: f64) -> (f64, f64) {
+        self.solve(lambda * r + self.beta * i1, r * r)
+    }
+
+    /// F (MPa), gradient (-) and Hessian (1/MPa) with respect to three principal stresses.
     ///
     /// The Hessian is that of the smooth surface; where J2 = 0 it is undefined and zero is returned.
     pub fn principal_derivatives(

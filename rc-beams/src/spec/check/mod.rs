@@ -8,7 +8,7 @@ use std::ops::RangeInclusive;
 
 use super::specimen::Specimen;
 
-/// Slack of comparisons of lengths [mm].
+/// Slack of comparisons of lengths (mm).
 const TOLERANCE: f64 = 1e-6;
 
 /// Something wrong with a specimen.
@@ -48,7 +48,7 @@ impl Checks<'_> {
         });
     }
 
-    /// Reports a coordinate [mm] outside its range.
+    /// Reports a coordinate (mm) outside its range.
     fn within(
         &mut self,
         path: impl Display,
@@ -63,7 +63,7 @@ impl Checks<'_> {
         }
     }
 
-    /// Reports a stretch [mm] that ends before it begins.
+    /// Reports a stretch (mm) that ends before it begins.
     fn ascending(&mut self, path: impl Display, from: f64, to: f64) {
         if to <= from {
             let message = format!("ends at {to} mm; allowed: more than {from} mm, where it begins");

@@ -67,19 +67,21 @@ impl Checks<'_> {
         if vertical < 2 {
             self.report(
                 "supports",
-                format!("{vertical} supports hold Uy; allowed: at least 2, or the beam turns over"),
+                format!(
+                    "supports that hold Uy: {vertical}; allowed: at least 2, or the beam turns"
+                ),
                 "add a support with `held: [Uy]`",
             );
         }
         if along == 0 {
             self.report(
                 "supports",
-                "no support holds Ux; allowed: at least 1, or the beam slides away",
+                "supports that hold Ux: 0; allowed: at least 1, or the beam slides",
                 "write `held: [Ux, Uy]` at one support",
             );
         }
         if self.specimen.loads.is_empty() {
-            self.report("loads", "no load; allowed: at least 1", "add a load");
+            self.report("loads", "loads: 0; allowed: at least 1", "add a load");
         }
     }
 

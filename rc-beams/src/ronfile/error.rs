@@ -1,4 +1,4 @@
-//! What is wrong with a specimen file, and where.
+//! What is wrong with a file, and where.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -6,15 +6,14 @@ use std::sync::Arc;
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use ron::error::{Error, Position, SpannedError};
 
-use super::check::Finding;
 use super::places::Places;
 use crate::suggest::nearest;
 
-/// An error of a specimen file; shows the line it stands in.
+/// An error of a file; shows the line it stands in.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[error("{message}")]
-#[diagnostic(code(rc_beams::specimen))]
-pub struct SpecError {
+#[diagnostic(code(rc_beams::input))]
+pub struct RonError {
     message: String,
     label: String,
     #[help]
@@ -25,26 +24,33 @@ pub struct SpecError {
     place: SourceSpan,
 }
 
-impl SpecError {
+impl RonError {
     /// From the error of the parser at the field `path`.
     pub(super) fn parse(file: &Arc<NamedSource<String>>, path: &str, error: &SpannedError) -> Self {
         let text = file.inner();
         let place = offset(text, error.span.start)..offset(text, error.span.end);
-        let (place, words) =
-            mistyped_number(text, place.start).unwrap_or_else(|| (place, Words::of(&error.code)));
-        let field = path.trim_end_matches(['?', '.']);
-        Self::new(file, field, words, place)
+        let parent = path.trim_end_matches('?');
+        let (field, place, words) = mistyped_number(text, place.start)
+            .unwrap_or_else(|| ("", place, Words::of(&error.code)));
+        let field = if parent == path {
+            path.into()
+        } else {
+            format!("{parent}{field}")
+        };
+        Self::new(file, field.trim_matches('.'), words, place)
     }
 
-    /// From fields that disagree with each other.
-    pub(super) fn finding(
+    /// From what is wrong with the value at `path`; shows the first line of it.
+    pub(super) fn found(
         file: &Arc<NamedSource<String>>,
-        places: &Places,
-        found: Finding,
+        path: &str,
+        what: String,
+        help: Option<String>,
     ) -> Self {
-        let place = places.find(&found.path);
-        let words = Words::new(found.message, "here", Some(found.remedy));
-        Self::new(file, &found.path, words, place)
+        let mut place = Places::of(file.inner()).find(path);
+        let value = file.inner().get(place.clone()).unwrap_or_default();
+        place.end = place.start + value.lines().next().unwrap_or_default().len();
+        Self::new(file, "", Words::new(what, "here", help), place)
     }
 
     fn new(
@@ -63,7 +69,7 @@ impl SpecError {
             message,
             label,
             help,
-            file: file.clone(),
+            file: Arc::clone(file),
             place: place.into(),
         }
     }
@@ -128,45 +134,43 @@ impl Words {
 }
 
 /// Recognises a number whose tail the parser stumbled over at `at`: a decimal comma, a unit, or a
-/// fraction where a whole number belongs.
-fn mistyped_number(text: &str, at: usize) -> Option<(Range<usize>, Words)> {
+/// fraction where a whole number belongs. Gives the name of its field, its place and the words.
+fn mistyped_number(text: &str, at: usize) -> Option<(&str, Range<usize>, Words)> {
     let (before, after) = text.split_at_checked(at)?;
-    let digits = |s: &str| s.len() - s.trim_end_matches(|c: char| c.is_ascii_digit()).len();
     let tail = after
         .split(|c: char| !c.is_ascii_alphanumeric() && c != '.')
         .next()?;
     let first = tail.chars().next()?;
-    if let Some(whole) = before.strip_suffix(',').filter(|_| first.is_ascii_digit()) {
-        let number = &whole[whole.len() - digits(whole)..];
-        let place = at - 1 - number.len()..at + tail.len();
-        let help = format!("use a decimal point: {number}.{tail}");
-        let words = Words::new("a number with a decimal comma", "this number", Some(help));
-        return (!number.is_empty()).then_some((place, words));
-    }
-    let number = before.trim_end_matches(' ');
-    if digits(number) == 0 || after[tail.len()..].trim_start().starts_with(':') {
+    let comma = before.ends_with(',') && first.is_ascii_digit();
+    let before = before.trim_end_matches(if comma { ',' } else { ' ' });
+    let lead = before.trim_end_matches(|c: char| c.is_ascii_digit() || ".+-".contains(c));
+    let number = &before[lead.len()..];
+    let is_field = after[tail.len()..].trim_start().starts_with(':');
+    if !number.ends_with(|c: char| c.is_ascii_digit()) || is_field {
         return None;
     }
-    let words = if first.is_ascii_alphabetic() {
-        let help = "leave the unit away: the name of the field states it".to_string();
-        Words::new("a number with a unit behind it", "this unit", Some(help))
+    let words = if comma {
+        let help = format!("use a decimal point: {number}.{tail}");
+        Words::new("a number with a decimal comma", "this number", Some(help))
+    } else if first.is_ascii_alphabetic() {
+        let help = format!("write {number} alone: the name of the field states the unit");
+        Words::new("a number with a unit behind it", "this number", Some(help))
     } else {
-        Words::new("a fraction; allowed: whole numbers", "the fraction", None)
+        Words::new("a fraction; allowed: whole numbers", "this number", None)
     };
-    Some((at..at + tail.len(), words))
+    let name = lead.trim_end().strip_suffix(':').unwrap_or_default();
+    let name = name
+        .rsplit(|c: char| !c.is_alphanumeric() && c != '_')
+        .next()?;
+    Some((name, lead.len()..at + tail.len(), words))
 }
 
 /// Byte offset of a line and column, both counted from 1, columns in characters.
 fn offset(text: &str, position: Position) -> usize {
-    let line: usize = text
+    let lines = text
         .split_inclusive('\n')
-        .take(position.line - 1)
-        .map(str::len)
-        .sum();
-    let column: usize = text[line..]
-        .chars()
-        .take(position.col - 1)
-        .map(char::len_utf8)
-        .sum();
-    line + column
+        .take(position.line.saturating_sub(1));
+    let line: usize = lines.map(str::len).sum();
+    let columns = text[line..].chars().take(position.col.saturating_sub(1));
+    line + columns.map(char::len_utf8).sum::<usize>()
 }

@@ -1,4 +1,4 @@
-//! Where a field stands in the text of a specimen file.
+//! Where a field stands in the text of a file.
 
 use std::ops::Range;
 
@@ -85,16 +85,14 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    fn identifier(&mut self) -> &'a str {
-        self.take_while(|c| c.is_alphanumeric() || c == '_')
-    }
-
     /// Records one value and those inside it.
     fn value(&mut self, path: &str) {
         self.skip_blank();
         let start = self.at;
         if self.skip('[') {
             self.list(path);
+        } else if self.skip('{') {
+            self.entries(path, '}');
         } else if self.rest().starts_with('"') {
             self.string();
         } else {
@@ -103,7 +101,7 @@ impl<'a> Scanner<'a> {
             self.skip_blank();
             match word.strip_prefix('r') {
                 Some(hashes) if self.skip('"') => self.skip_past(&format!("\"{hashes}")),
-                _ if self.skip('(') => self.fields(path),
+                _ if self.skip('(') => self.entries(path, ')'),
                 _ => self.at = end,
             }
         }
@@ -125,13 +123,14 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    fn fields(&mut self, path: &str) {
+    /// Fields of a structure or entries of a map.
+    fn entries(&mut self, path: &str, close: char) {
         loop {
             self.skip_blank();
-            if self.skip(')') || self.rest().is_empty() {
+            if self.skip(close) || self.rest().is_empty() {
                 return;
             }
-            let name = self.identifier();
+            let name = self.name();
             self.skip_blank();
             if !self.skip(':') {
                 return;
@@ -144,6 +143,17 @@ impl<'a> Scanner<'a> {
             self.skip_blank();
             self.skip(',');
         }
+    }
+
+    /// Name of a field or key of a map.
+    fn name(&mut self) -> &'a str {
+        let start = self.at;
+        if self.rest().starts_with('"') {
+            self.string();
+        } else {
+            self.take_while(|c| c.is_alphanumeric() || c == '_');
+        }
+        self.text[start..self.at].trim_matches('"')
     }
 
     /// Skips a string from its opening to its closing quote.
@@ -173,6 +183,7 @@ Beam(
     raw: r#"x " y"#,
     bars: [(y_mm: 51.5), Bar(y_mm: -1e3)],
     load: InnerShear(load: 1), none: None,
+    strain: {"eps_xx": 0.1, "eps_yy": -2},
 )"##;
 
     #[test]
@@ -187,6 +198,7 @@ Beam(
             ("load", "InnerShear(load: 1)"),
             ("load.load", "1"),
             ("none", "None"),
+            ("strain.eps_yy", "-2"),
             ("bars[1].missing", "Bar(y_mm: -1e3)"),
         ] {
             assert_eq!(&TEXT[places.find(path)], value, "{path}");
