@@ -4,7 +4,9 @@
 //! README.
 
 pub mod beam;
+pub mod conditions;
 pub mod dense;
 pub mod laws;
 pub mod mesh;
 pub mod solve;
+pub mod stress;
