@@ -196,6 +196,14 @@ impl Mesh {
         self.sets.get(name).map_or(&[], Vec::as_slice)
     }
 
+    /// Names of the node sets that have members.
+    pub fn set_names(&self) -> impl Iterator<Item = &str> {
+        self.sets
+            .iter()
+            .filter(|(_, members)| !members.is_empty())
+            .map(|(name, _)| name.as_str())
+    }
+
     /// Corners of the bounding box (mm).
     pub fn bounding_box(&self) -> [[f64; 3]; 2] {
         let mut corners = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];

@@ -42,6 +42,14 @@ pub enum ModelError {
         /// Nodes there are.
         nodes: usize,
     },
+    /// A node set is empty or does not exist.
+    #[error("no node is in the set {set}; the mesh has {known}")]
+    EmptySet {
+        /// Set asked for.
+        set: String,
+        /// Sets that have nodes.
+        known: String,
+    },
 }
 
 impl ModelError {
@@ -154,6 +162,24 @@ impl Conditions {
     /// [`ModelError`] for a node or DOF that is not there.
     pub fn fix(&mut self, model: &Model, node: NodeId, dof: Dof) -> Result<(), ModelError> {
         self.prescribe(model, node, dof, 0.0)
+    }
+
+    /// Holds a DOF of every node of a set: a plane of symmetry, with the displacement normal to it.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError::EmptySet`] for a set without nodes, [`ModelError::UnusedDof`] for a node without the DOF.
+    pub fn fix_set(&mut self, model: &Model, set: &str, dof: Dof) -> Result<(), ModelError> {
+        let nodes = model.mesh().set(set);
+        if nodes.is_empty() {
+            return Err(ModelError::EmptySet {
+                set: set.into(),
+                known: model.mesh().set_names().collect::<Vec<_>>().join(", "),
+            });
+        }
+        nodes
+            .iter()
+            .try_for_each(|&node| self.fix(model, node, dof))
     }
 
     /// Moves a DOF by `rate` (mm) per unit of the load factor.

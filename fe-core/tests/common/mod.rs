@@ -51,7 +51,7 @@ impl Material<Solid> for Elastic {
     }
 }
 
-/// What is deliberately wrong with a [`Damage`] law or a [`Truss`].
+/// What is special about a [`Damage`] law or a [`Truss`]: most are breaches of the contract.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flaw {
     None,
@@ -64,6 +64,8 @@ pub enum Flaw {
     OtherStressWithoutOperator,
     Grounded,
     Unsymmetric,
+    Refuses,
+    Latches,
 }
 
 /// Uniaxial damage: sigma = (1 - d(kappa)) E eps with kappa = max |eps|, d = 1 - (e0/kappa) exp((e0 - kappa)/ef),
@@ -108,6 +110,12 @@ impl Material<Axial> for Damage {
         ctx: &PointContext,
     ) -> Result<Response<Axial>, MaterialError> {
         let e = strain[0];
+        if self.0 == Flaw::Refuses {
+            return Err(MaterialError::NotFinite {
+                law: self.name(),
+                component: 0,
+            });
+        }
         let old = if self.0 == Flaw::ReadsTrial {
             committed[0].max(trial[0])
         } else {
@@ -152,6 +160,12 @@ impl Material<Axial> for Damage {
             stress: Vector1::new(stress),
             tangent: Vector1::new(tangent),
         })
+    }
+
+    fn latch(&self, trial: &[f64], base: &mut [f64]) {
+        if self.0 == Flaw::Latches {
+            base[0] = trial[0];
+        }
     }
 
     fn free_energy(&self, strain: &Vector1<f64>, state: &[f64], _: &PointContext) -> Option<f64> {
