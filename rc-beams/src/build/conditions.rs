@@ -101,7 +101,7 @@ impl Measures {
         let total: f64 = reactions.iter().sum();
         let half = match self.load {
             LoadMeasure::TotalReactions => total,
-            LoadMeasure::InnerShear { end_support, .. } => {
+            LoadMeasure::InnerShear { end_support } => {
                 total / self.loads.len() as f64 - reactions.get(end_support).copied().unwrap_or(0.0)
             }
         };
