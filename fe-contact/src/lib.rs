@@ -1,17 +1,16 @@
 //! Cohesive laws and interface elements.
 //!
-//! A cohesive law is a [`Material`](fe_core::material::Material) over the
-//! [`Interface`](fe_core::kinematics::Interface) kinematics: the displacement jump [mm] along two tangents
-//! and the normal (opening positive) goes in, the traction [MPa] comes out. One trait, one point driver
-//! and one conformance suite serve it and the laws of solids alike, and the kinematics marker keeps a
-//! lamina from being plugged into an interface.
+//! A cohesive law is a [`Material`](fe_core::material::Material) over the [`Interface`] kinematics: the
+//! displacement jump (mm) along two tangents and the normal (opening positive) goes in, the traction (MPa)
+//! comes out. One trait, one point driver and one conformance suite serve it and the laws of solids alike,
+//! and the kinematics marker keeps a lamina from being plugged into an interface.
 //!
 //! This crate holds the vocabulary only so far: the interface element between 8-node faces and the
 //! cohesive laws (Lu, Teng, Ye and Jiang 2005, among others) will live here.
 
 pub use fe_core::kinematics::Interface;
 
-/// Splits a jump [mm] into the length of its slip and its opening.
+/// Splits a jump (mm) into the length of its slip and its opening.
 ///
 /// ```
 /// use fe_contact::{Interface, slip_and_opening};

@@ -9,13 +9,13 @@ use crate::limits::{out_of_range, positive};
 /// Isotropic elastic constants and the 6 x 6 matrix D of engineering shear strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Elasticity {
-    /// Young's modulus E [MPa].
+    /// Young's modulus E (MPa).
     pub(crate) young: f64,
-    /// Bulk modulus K [MPa].
+    /// Bulk modulus K (MPa).
     pub(crate) bulk: f64,
-    /// Shear modulus G [MPa].
+    /// Shear modulus G (MPa).
     pub(crate) shear: f64,
-    /// Stiffness D [MPa].
+    /// Stiffness D (MPa).
     pub(crate) stiffness: Matrix6<f64>,
 }
 
@@ -36,7 +36,7 @@ impl Elasticity {
         })
     }
 
-    /// Stress [MPa] of an elastic Voigt strain.
+    /// Stress (MPa) of an elastic Voigt strain.
     pub(crate) fn stress(&self, strain: &Vector6<f64>) -> Vector6<f64> {
         let volumetric = strain[0] + strain[1] + strain[2];
         let pressure = (self.bulk - 2.0 / 3.0 * self.shear) * volumetric;
@@ -49,7 +49,7 @@ impl Elasticity {
         })
     }
 
-    /// Strain of a Voigt stress [MPa].
+    /// Strain of a Voigt stress (MPa).
     pub(crate) fn strain(&self, stress: &Vector6<f64>) -> Vector6<f64> {
         let mean = (stress[0] + stress[1] + stress[2]) / 3.0;
         Vector6::from_fn(|i, _| {
@@ -61,14 +61,14 @@ impl Elasticity {
         })
     }
 
-    /// Compliance of the principal strains, 3 x 3 [1/MPa].
+    /// Compliance of the principal strains, 3 x 3 (1/MPa).
     pub(crate) fn principal_compliance(&self) -> Matrix3<f64> {
         let shear = 0.5 / self.shear;
         let volume = (1.0 / (3.0 * self.bulk) - shear) / 3.0;
         Matrix3::repeat(volume) + Matrix3::identity() * shear
     }
 
-    /// Energy density 1/2 eps : D : eps [MPa] of an elastic Voigt strain.
+    /// Energy density 1/2 eps : D : eps (MPa) of an elastic Voigt strain.
     pub(crate) fn energy(&self, strain: &Vector6<f64>) -> f64 {
         0.5 * self.stress(strain).dot(strain)
     }

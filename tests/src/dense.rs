@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 /// Eigenvalues below this share of the largest count as zero.
 const ZERO: f64 = 1e-10;
 
-/// Stiffness [N/mm] of the free equations in the virgin state.
+/// Stiffness (N/mm) of the free equations in the virgin state.
 ///
 /// # Errors
 ///

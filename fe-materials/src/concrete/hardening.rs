@@ -50,18 +50,18 @@ enum End {
 /// One point of the curve; derivatives with respect to eta.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurvePoint {
-    /// Stress sbar [MPa].
+    /// Stress sbar (MPa).
     pub stress: f64,
-    /// dsbar/deta [MPa].
+    /// dsbar/deta (MPa).
     pub stress_slope: f64,
-    /// Plastic strain kappa [-].
+    /// Plastic strain kappa (-).
     pub kappa: f64,
-    /// dkappa/deta [-], positive for eta > 0.
+    /// dkappa/deta (-), positive for eta > 0.
     pub kappa_slope: f64,
 }
 
 impl CurvePoint {
-    /// Hardening modulus H = dsbar/dkappa [MPa]; infinite at the origin.
+    /// Hardening modulus H = dsbar/dkappa (MPa); infinite at the origin.
     pub fn hardening_modulus(&self) -> f64 {
         self.stress_slope / self.kappa_slope
     }
@@ -115,8 +115,8 @@ impl CompressionCurve {
         })
     }
 
-    /// The same curve up to its peak, then regularised: it dissipates `crushing_energy` G_c [N/mm] after
-    /// the peak in a band of width h = `band_width` [mm].
+    /// The same curve up to its peak, then regularised: it dissipates `crushing_energy` G_c (N/mm) after
+    /// the peak in a band of width h = `band_width` (mm).
     #[must_use]
     pub fn regularised(&self, crushing_energy: f64, band_width: f64) -> Self {
         let width = 1.5 * crushing_energy / (band_width * self.strength);
@@ -126,17 +126,17 @@ impl CompressionCurve {
         }
     }
 
-    /// Strength fcm [MPa].
+    /// Strength fcm (MPa).
     pub const fn strength(&self) -> f64 {
         self.strength
     }
 
-    /// Strain eps_c1 at the strength, positive [-].
+    /// Strain eps_c1 at the strength, positive (-).
     pub const fn peak_strain(&self) -> f64 {
         self.peak_strain
     }
 
-    /// Plastic strain at the peak, kappa_p = eps_c1 - fcm/Eci [-].
+    /// Plastic strain at the peak, kappa_p = eps_c1 - fcm/Eci (-).
     pub fn peak_kappa(&self) -> f64 {
         self.peak_strain - self.strength / self.young
     }

@@ -55,15 +55,15 @@ pub struct Isochoric {
 /// A stress on or inside the yield surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PlasticReturn {
-    /// Stress [MPa].
+    /// Stress (MPa).
     pub(crate) stress: Vector6<f64>,
-    /// Principal stresses [MPa], descending.
+    /// Principal stresses (MPa), descending.
     pub(crate) principal: Vector3<f64>,
     /// Principal axes, columns; the same for trial and returned stress.
     pub(crate) axes: Matrix3<f64>,
     /// New internal variables.
     pub(crate) state: PlasticState,
-    /// Operator asked for [MPa].
+    /// Operator asked for (MPa).
     pub(crate) tangent: Matrix6<f64>,
 }
 

@@ -43,9 +43,9 @@ pub(super) struct Projection<'a> {
 /// A projected stress.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Projected {
-    /// Principal stresses, descending [MPa].
+    /// Principal stresses, descending (MPa).
     pub(super) stress: Vector3<f64>,
-    /// Plastic multiplier [-].
+    /// Plastic multiplier (-).
     pub(super) dlam: f64,
     /// a = dF/dsigma.
     pub(super) gradient: Vector3<f64>,
@@ -54,7 +54,7 @@ pub(super) struct Projected {
 }
 
 impl Projected {
-    /// -ds/ddlam = a Q a [MPa]: how fast the level falls with the plastic multiplier.
+    /// -ds/ddlam = a Q a (MPa): how fast the level falls with the plastic multiplier.
     pub(super) fn softening(&self) -> f64 {
         self.gradient.dot(&(self.stiffness * self.gradient))
     }

@@ -134,7 +134,7 @@ impl Ottosen {
         )
     }
 
-    /// Effective stress F [MPa] and its gradient [-] with respect to three principal stresses [MPa], in any
+    /// Effective stress F (MPa) and its gradient (-) with respect to three principal stresses (MPa), in any
     /// order; kinks as in [`Ottosen::gradient`].
     pub fn principal_gradient(&self, stress: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let q = Invariants::of_principal(stress);
@@ -145,7 +145,7 @@ impl Ottosen {
         (f, gradient)
     }
 
-    /// lambda and its first two derivatives with respect to the Lode angle [rad].
+    /// lambda and its first two derivatives with respect to the Lode angle (rad).
     pub(crate) fn polar_lambda(&self, angle: f64) -> [f64; 3] {
         let (sin, cos) = (3.0 * angle).sin_cos();
         let lambda = self.lambda_derivatives(cos);
@@ -156,12 +156,12 @@ impl Ottosen {
         ]
     }
 
-    /// F and S = 2 F - A [MPa] for given lambda, sqrt(J2) and I1.
+    /// F and S = 2 F - A (MPa) for given lambda, sqrt(J2) and I1.
     pub(crate) fn polar_value(&self, lambda: f64, r: f64, i1: f64) -> (f64, f64) {
         self.solve(lambda * r + self.beta * i1, r * r)
     }
 
-    /// F [MPa], gradient [-] and Hessian [1/MPa] with respect to three principal stresses.
+    /// F (MPa), gradient (-) and Hessian (1/MPa) with respect to three principal stresses.
     ///
     /// The Hessian is that of the smooth surface; where J2 = 0 it is undefined and zero is returned.
     pub fn principal_derivatives(
