@@ -4,8 +4,8 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use fe_core::kinematics::{Axial, Kinematics, PlaneStress, Solid};
 use fe_core::material::{Material, PointContext};
 use fe_materials::concrete::{
-    Associated, Calibration, ConcreteScalars, Isochoric, Ottosen, Reference, ReferenceParameters,
-    TensionStiffening,
+    Associated, Calibration, ConcreteScalars, Isochoric, Objective, Ottosen, Reference,
+    ReferenceParameters, TensionStiffening,
 };
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 use fe_materials::{Biso, Elastic, Lamina, LaminaParameters, VonMises};
@@ -54,6 +54,9 @@ fn laws(c: &mut Criterion) {
     solid(c, "associated", &law, &crushed);
     let law = Isochoric::new(&concrete).unwrap();
     solid(c, "isochoric", &law, &crushed);
+    let law = Objective::new(&concrete).unwrap();
+    solid(c, "objective, crushing", &law, &crushed);
+    solid(c, "objective, cracked", &law, &cracked);
     let p = ReferenceParameters::new(concrete, TensionStiffening::Stirrups);
     let law = Reference::new(&p).unwrap();
     solid(c, "reference, crushing", &law, &crushed);

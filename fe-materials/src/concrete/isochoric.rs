@@ -26,15 +26,15 @@ const LAW: &str = "isochoric Ottosen plasticity";
 /// Backward Euler keeps the mean stress p and the direction of the trial deviator,
 /// sigma = p 1 + rho s_tr with rho = 1 - 3G dlam/q_tr, which leaves one equation
 ///
-/// $$ F(\mathrm{neg}(p\,1 + \rho\,s_{tr})) = \bar s(\kappa_n + \Delta\lambda), $$
+/// $$ F(\mathrm{neg}(p 1 + \rho s_{tr})) = \bar s(\kappa_n + \Delta\lambda), $$
 ///
 /// solved for eta = eps/eps_c1 of the curve, where it has no infinite slope; rho from 1 to 0 brackets a
 /// root, so the return cannot fail. Consistent tangent, with N = dF(neg)/dsigma, H = dsbar/dkappa and
 /// c = 3G dlam/q_tr:
 ///
-/// $$ D_{ep} = M - \frac{3G}{q_{tr}}\,
+/// $$ D_{ep} = M - \frac{3G}{q_{tr}}
 ///    \frac{s_{tr} \otimes (N : M)}{H + \frac{3G}{q_{tr}} N : s_{tr}}, \qquad
-///    M = K\,1 \otimes 1 + 2G\rho\,P_{dev} + \frac{3G c}{q_{tr}^2}\, s_{tr} \otimes s_{tr}, $$
+///    M = K 1 \otimes 1 + 2G\rho P_{dev} + \frac{3G c}{q_{tr}^2} s_{tr} \otimes s_{tr}, $$
 ///
 /// unsymmetric. Uniaxial compression reproduces the curve exactly for any step size.
 ///
@@ -90,6 +90,10 @@ impl Isochoric {
     /// The uniaxial curve that drives the hardening.
     pub const fn curve(&self) -> &CompressionCurve {
         &self.curve
+    }
+
+    pub(crate) const fn elastic(&self) -> &Elasticity {
+        &self.elastic
     }
 
     /// Stress, state and operator at a total strain, hardening along `curve`.

@@ -6,6 +6,7 @@
 mod associated;
 mod hardening;
 mod isochoric;
+mod objective;
 mod ottosen;
 mod plastic_state;
 mod reference;
@@ -16,6 +17,7 @@ mod spectral;
 pub use associated::Associated;
 pub use hardening::{CompressionCurve, CurvePoint};
 pub use isochoric::Isochoric;
+pub use objective::Objective;
 pub use ottosen::{Calibration, Ottosen};
 pub use reference::{Reference, ReferenceParameters, ShearRetention, TensionStiffening};
 pub use scalars::ConcreteScalars;

@@ -24,7 +24,7 @@ const LAW: &str = "associated Ottosen plasticity";
 /// With the effective stress F of [`Ottosen`] and the curve sbar(kappa) of [`CompressionCurve`]:
 ///
 /// $$ F(\sigma) \le \bar s(\kappa), \qquad
-///    \dot\varepsilon_p = \dot\lambda\, \frac{\partial F}{\partial \sigma}, \qquad
+///    \dot\varepsilon_p = \dot\lambda \frac{\partial F}{\partial \sigma}, \qquad
 ///    \dot\kappa = \dot\lambda, $$
 ///
 /// the last because F is homogeneous of degree one: sigma : deps_p = F dlam = sbar dkappa. Uniaxial

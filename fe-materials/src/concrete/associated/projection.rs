@@ -12,7 +12,7 @@ use crate::elasticity::Elasticity;
 /// Tolerance of the Lode angle, relative to the deviator of the trial stress.
 const ANGLE_TOLERANCE: f64 = 4e-16;
 
-/// Tolerance of the Lode angle at the apex [rad]: it only bounds the others.
+/// Tolerance of the Lode angle at the apex (rad): it only bounds the others.
 const APEX_TOLERANCE: f64 = 1e-14;
 
 /// Projection of a trial stress on the sets F <= s in the norm of the elastic compliance.

@@ -14,7 +14,7 @@ use derivatives::Invariants;
 /// With the invariants I1, J2, J3 and the Lode angle t, cos 3t = (3 sqrt3/2) J3/J2^(3/2), the surface is
 ///
 /// $$ \alpha \frac{J_2}{f_c^2} + \lambda \frac{\sqrt{J_2}}{f_c} + \beta \frac{I_1}{f_c} - 1 = 0,
-/// \qquad \lambda = c_1 \cos\left[\tfrac13 \arccos(c_2 \cos 3t)\right]. $$
+/// \qquad \lambda = c_1 \cos\left(\tfrac13 \arccos(c_2 \cos 3t)\right). $$
 ///
 /// The Code's two branches for lambda (cos 3t of either sign) are identically this one function.
 ///

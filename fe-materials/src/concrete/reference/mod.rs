@@ -58,7 +58,7 @@ const OPERATOR_FLOOR: f64 = 1e-4;
 ///
 /// The growth of r_i in a step is scaled by the relaxation of the context; plastic strain is not.
 ///
-/// Sources: E. Hinton, "Numerical Methods and Software for Dynamic Analysis of Plates and Shells" (1988);
+/// Sources: Soares, dissertation, Universidade Federal do Rio Grande do Sul (2022), section 3.1.2; E. Hinton, "Numerical Methods and Software for Dynamic Analysis of Plates and Shells" (1988);
 /// CEB Bulletin 156 (1983); surface and curve as in [`Isochoric`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {

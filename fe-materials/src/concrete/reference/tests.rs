@@ -158,6 +158,33 @@ fn closed_crack_follows_the_compression_curve() {
     assert_abs_diff_eq!(point.stress(axial(plastic + 1e-4))[0], 0.0, epsilon = 1e-8);
 }
 
+/// A point that was compressed along x and then cracks across y measures its crack from the plastic strain,
+/// and goes on along the compression curve of x where it had stopped.
+#[test]
+fn plastic_strain_survives_cracking() {
+    let p = concrete();
+    let law = law(TensionStiffening::Stirrups);
+    let curve = *law.uncracked.curve();
+    let mut driver = PointDriver::new(&law, CONTEXT).unwrap();
+    let mut control = vec![Control::Stress(0.0); 6];
+    control[0] = Control::Strain(-1.5e-3);
+    driver.run(&[Segment::new(control, 15)]).unwrap();
+    let state = driver.history().rows()[15].state.clone();
+    let plastic = State::read(&state).plastic.strain;
+    assert!(plastic[0] < -2e-4 && plastic[1] > 1e-4);
+
+    let mut point = Point { law, state };
+    let opened = plastic + Vector6::new(0.0, 5e-4, 0.0, 0.0, 0.0, 0.0);
+    let stress = point.stress(opened);
+    let expected = 0.6 * p.fctm_mpa * (1.0 - 0.05);
+    assert_abs_diff_eq!(stress[1], expected, epsilon = 1e-9);
+    assert_abs_diff_eq!(stress[0], 0.0, epsilon = 1e-9);
+    let mut crushed = opened;
+    crushed[0] = -2e-3;
+    let expected = -curve.at(2e-3 / p.eps_c1).stress;
+    assert_relative_eq!(point.stress(crushed)[0], expected, max_relative = 1e-9);
+}
+
 /// Uniaxial compression beyond the peak marks the point as crushed and opens no crack; the stress is that
 /// of the uncracked law.
 #[test]
