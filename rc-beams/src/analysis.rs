@@ -17,9 +17,9 @@ pub const FOLLOW: f64 = 1.5;
 /// How the load stage is stepped.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stepping {
-    /// First step [mm].
+    /// First step (mm).
     pub initial_mm: f64,
-    /// Imposed deflection at which the path ends at the latest [mm].
+    /// Imposed deflection at which the path ends at the latest (mm).
     pub until_mm: f64,
     /// Whether the path is followed to `until_mm` whatever happens to the load.
     pub to_the_end: bool,
@@ -50,20 +50,20 @@ impl Stepping {
 /// What is read off the model at an accepted step, net of self weight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
-    /// Deflection at the gauge [mm].
+    /// Deflection at the gauge (mm).
     pub deflection_mm: f64,
-    /// Reported load [kN].
+    /// Reported load (kN).
     pub load_kn: f64,
-    /// The same from the work of the true stresses on the step [kN].
+    /// The same from the work of the true stresses on the step (kN).
     pub work_conjugate_load_kn: f64,
-    /// Support reactions of the whole width, self weight included [kN].
+    /// Support reactions of the whole width, self weight included (kN).
     pub reactions_kn: Vec<f64>,
 }
 
 /// Displacements and states of an accepted step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Snapshot {
-    /// Displacements of all DOFs [mm].
+    /// Displacements of all DOFs (mm).
     pub displacement: Vec<f64>,
     /// States of all elements.
     pub state: Vec<f64>,
@@ -112,7 +112,7 @@ pub struct Outcome {
     pub peak: Snapshot,
     /// State at the last accepted step.
     pub last: Snapshot,
-    /// Sum of the support reactions under self weight, whole width [kN].
+    /// Sum of the support reactions under self weight, whole width (kN).
     pub self_weight_kn: f64,
     /// Work done in the load stage.
     pub counters: Counters,
@@ -175,7 +175,7 @@ pub fn analyse(
     })
 }
 
-/// Reactions [N, half width] and deflection [mm] under self weight: the zero of all readings.
+/// Reactions (N, half width) and deflection (mm) under self weight: the zero of all readings.
 #[derive(Debug, Default)]
 struct Origin {
     reactions: Vec<f64>,

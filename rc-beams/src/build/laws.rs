@@ -45,7 +45,7 @@ fn properties(specimen: &Specimen, preset: Preset) -> Result<ConcreteScalars, Ma
     }
 }
 
-/// Mean compressive strength [MPa] as the preset reads the report.
+/// Mean compressive strength (MPa) as the preset reads the report.
 pub(super) fn mean_strength(specimen: &Specimen, preset: Preset) -> Result<f64, MaterialError> {
     Ok(properties(specimen, preset)?.fcm_mpa)
 }
@@ -94,7 +94,7 @@ pub(super) fn plates(specimen: &Specimen) -> Result<Vec<(String, SolidLaw)>, Mat
         .collect()
 }
 
-/// Weight of the concrete per volume [N/mm3].
+/// Weight of the concrete per volume (N/mm3).
 pub(super) fn weight_density(specimen: &Specimen) -> f64 {
     specimen.concrete.density_kg_m3.get() * specimen.gravity.acceleration_m_s2.get() * 1e-9
 }

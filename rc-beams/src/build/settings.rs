@@ -56,7 +56,7 @@ pub struct ModelSettings {
     pub law: ConcreteLaw,
     /// Dowel action of bars against shear across cracks.
     pub dowel: bool,
-    /// Floor of the shear factor of open cracks [-].
+    /// Floor of the shear factor of open cracks (-).
     pub shear_floor: f64,
 }
 
@@ -77,7 +77,7 @@ impl ModelSettings {
         }
     }
 
-    /// Crack-band width [mm] of the average concrete element: the length over which a dowel acts.
+    /// Crack-band width (mm) of the average concrete element: the length over which a dowel acts.
     pub(super) fn nominal_band_width(&self, specimen: &Specimen) -> f64 {
         let [nx, ny, _] = self.mesh.map(|n| n as f64);
         let area = specimen.beam.length_mm.get() / nx * specimen.beam.height_mm.get() / ny;
