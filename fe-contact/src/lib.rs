@@ -1,17 +1,20 @@
 //! Cohesive laws and interface elements.
 //!
 //! A cohesive law is a [`Material`](fe_core::material::Material) over the
-//! [`Interface`](fe_core::kinematics::Interface) kinematics: the displacement jump [mm] along two tangents
-//! and the normal (opening positive) goes in, the traction [MPa] comes out. One trait, one point driver
+//! [`Interface`] kinematics: the displacement jump (mm) along two tangents
+//! and the normal (opening positive) goes in, the traction (MPa) comes out. One trait, one point driver
 //! and one conformance suite serve it and the laws of solids alike, and the kinematics marker keeps a
 //! lamina from being plugged into an interface.
 //!
 //! This crate holds the vocabulary only so far: the interface element between 8-node faces and the
-//! cohesive laws (Lu, Teng, Ye and Jiang 2005, among others) will live here.
+//! bond-slip laws of externally bonded sheets (Lu, Teng, Ye and Jiang 2005, among others) will live here.
+
+use fe_core::kinematics::Kinematics;
 
 pub use fe_core::kinematics::Interface;
 
-/// Splits a jump [mm] into the length of its slip and its opening.
+/// Splits a jump (mm) into the length of its slip, sqrt(s_1^2 + s_2^2), and its opening (mm), negative in
+/// contact.
 ///
 /// ```
 /// use fe_contact::{Interface, slip_and_opening};
@@ -21,8 +24,10 @@ pub use fe_core::kinematics::Interface;
 /// assert!((slip - 0.5).abs() < 1e-15);
 /// assert!((opening + 0.1).abs() < 1e-15);
 /// ```
-pub fn slip_and_opening(
-    jump: &<Interface as fe_core::kinematics::Kinematics>::Vector,
-) -> (f64, f64) {
+pub fn slip_and_opening(jump: &<Interface as Kinematics>::Vector) -> (f64, f64) {
     (jump[0].hypot(jump[1]), jump[2])
 }
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -6,17 +6,17 @@ use crate::mesh::{Mesh, NodeId};
 /// A nodal degree of freedom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Dof {
-    /// Displacement along x [mm].
+    /// Displacement along x (mm).
     Ux,
-    /// Displacement along y [mm].
+    /// Displacement along y (mm).
     Uy,
-    /// Displacement along z [mm].
+    /// Displacement along z (mm).
     Uz,
-    /// Rotation about x [rad].
+    /// Rotation about x (rad).
     Rx,
-    /// Rotation about y [rad].
+    /// Rotation about y (rad).
     Ry,
-    /// Rotation about z [rad].
+    /// Rotation about z (rad).
     Rz,
 }
 
@@ -33,14 +33,15 @@ impl std::fmt::Display for Dof {
     }
 }
 
-/// Equation numbers of every (node, DOF) that some element uses.
+/// Indices of every (node, DOF) that some element uses.
 ///
 /// Nodes are numbered along the longest axis of the mesh (then the next longest, then the
 /// shortest), which keeps the profile of a slender beam as small as a fill-reducing ordering
 /// would; DOFs of a node are consecutive.
 #[derive(Debug, Clone)]
 pub struct DofMap {
-    first: Vec<[u32; 6]>,
+    /// Index of each DOF by node.
+    index: Vec<[u32; 6]>,
     owner: Vec<(NodeId, Dof)>,
 }
 
@@ -57,17 +58,17 @@ impl DofMap {
                 }
             }
         }
-        let mut first = vec![[UNUSED; 6]; used.len()];
+        let mut index = vec![[UNUSED; 6]; used.len()];
         let mut owner = Vec::new();
         for node in order_along_longest_axis(mesh) {
             for dof in Dof::ALL {
                 if used[node][dof as usize] {
-                    first[node][dof as usize] = owner.len() as u32;
+                    index[node][dof as usize] = owner.len() as u32;
                     owner.push((node, dof));
                 }
             }
         }
-        Self { first, owner }
+        Self { index, owner }
     }
 
     /// Number of DOFs, constrained ones included.
@@ -82,7 +83,7 @@ impl DofMap {
 
     /// Index of a DOF, or `None` where no element uses it.
     pub fn index(&self, node: NodeId, dof: Dof) -> Option<usize> {
-        let i = self.first.get(node)?[dof as usize];
+        let i = self.index.get(node)?[dof as usize];
         (i != UNUSED).then_some(i as usize)
     }
 
@@ -100,7 +101,7 @@ impl DofMap {
                 element
                     .dofs()
                     .iter()
-                    .map(move |&d| self.first[n][d as usize])
+                    .map(move |&d| self.index[n][d as usize])
             })
             .collect()
     }

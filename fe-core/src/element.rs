@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use crate::dof::Dof;
 use crate::material::{MaterialError, Operator, PointReport, StateVar};
-use crate::mesh::NodeId;
+use crate::mesh::{CellKind, NodeId};
 
 /// What holds for every element in one evaluation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,9 +39,9 @@ impl EvaluationContext {
 /// `n` is the number of element DOFs: nodes times DOFs per node, node-major.
 #[derive(Debug)]
 pub struct ElementSystem<'a> {
-    /// Internal force [N], `n` entries, zeroed by the caller.
+    /// Internal force (N), `n` entries, zeroed by the caller.
     pub force: &'a mut [f64],
-    /// Stiffness [N/mm], `n x n` row-major, zeroed by the caller; empty when
+    /// Stiffness (N/mm), `n x n` row-major, zeroed by the caller; empty when
     /// [`EvaluationContext::operator`] is [`Operator::None`]. A symmetric element
     /// ([`Element::unsymmetric`] false) needs to fill the upper triangle (j >= i) only.
     pub stiffness: &'a mut [f64],
@@ -50,13 +50,13 @@ pub struct ElementSystem<'a> {
 /// One integration point as seen from outside, for output, gauges and failure evidence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointSample<'a> {
-    /// Position [mm].
+    /// Position (mm).
     pub position: [f64; 3],
-    /// Volume the point stands for [mm3].
+    /// Volume the point stands for (mm3).
     pub volume: f64,
     /// Strain components, in the order of the law's kinematics.
     pub strain: &'a [f64],
-    /// Stress components [MPa].
+    /// Stress components (MPa).
     pub stress: &'a [f64],
     /// Report of the law.
     pub report: PointReport,
@@ -97,12 +97,20 @@ pub enum ElementError {
     NoHost {
         /// Name of the bar.
         bar: String,
-        /// Position of the first point without host [mm].
+        /// Position of the first point without host (mm).
         x: f64,
-        /// Position of the first point without host [mm].
+        /// Position of the first point without host (mm).
         y: f64,
-        /// Position of the first point without host [mm].
+        /// Position of the first point without host (mm).
         z: f64,
+    },
+    /// A host block is not there.
+    #[error("no block of hexahedra is named {block}; the mesh has {known}")]
+    NoSuchBlock {
+        /// Name asked for.
+        block: String,
+        /// Blocks of hexahedra there are.
+        known: String,
     },
     /// Some other impossible input.
     #[error("{what} = {value} is outside {allowed}; {remedy}")]
@@ -142,7 +150,7 @@ pub trait Element: Debug + Send + Sync {
     /// Writes the virgin state.
     fn init_state(&self, state: &mut [f64]);
 
-    /// Internal force and, if asked, stiffness, at the element displacement `u` [mm].
+    /// Internal force and, if asked, stiffness, at the element displacement `u` (mm).
     ///
     /// # Errors
     ///
@@ -156,6 +164,12 @@ pub trait Element: Debug + Send + Sync {
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError>;
 
+    /// The cell to draw the element as, on its own nodes in that order; `None` for an element that draws
+    /// [segments](Self::segments) or nothing.
+    fn cell(&self) -> Option<CellKind> {
+        None
+    }
+
     /// Whether the stiffness for [`Operator::Tangent`] can be unsymmetric.
     fn unsymmetric(&self) -> bool {
         false
@@ -164,7 +178,7 @@ pub trait Element: Debug + Send + Sync {
     /// See [`Material::latch`](crate::material::Material::latch), for every integration point.
     fn latch(&self, _trial: &[f64], _base: &mut [f64]) {}
 
-    /// Free energy [N mm] of the element, if its law has one.
+    /// Free energy (N mm) of the element, if its law has one.
     fn free_energy(&self, _u: &[f64], _state: &[f64]) -> Option<f64> {
         None
     }
@@ -183,7 +197,7 @@ pub trait Element: Debug + Send + Sync {
         Ok(())
     }
 
-    /// Line segments to draw [mm], each with the axial stress [MPa] at `u` and `state`: bars.
+    /// Line segments to draw (mm), each with the axial stress (MPa) at `u` and `state`: bars.
     ///
     /// # Errors
     ///

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::mesh::{CellKind, Mesh, MeshError, NodeId};
 
-/// Nodes closer than this [mm] are one.
+/// Nodes within half of this (mm) along every axis are one; those farther apart than all of it are two.
 const MERGE: f64 = 1e-6;
 
 /// Builds a mesh of hex20 boxes from grid lines; boxes whose lines coincide on a common face share the
@@ -57,7 +57,7 @@ impl GridBuilder {
         Self::default()
     }
 
-    /// Adds one cell between each pair of neighbouring lines [mm, ascending]; boxes of the same name
+    /// Adds one cell between each pair of neighbouring lines (mm, ascending); boxes of the same name
     /// form one block.
     pub fn add_box(&mut self, block: &str, x: &[f64], y: &[f64], z: &[f64]) {
         let lines = [x, y, z];
@@ -82,13 +82,26 @@ impl GridBuilder {
         }
     }
 
+    /// The node at a position, new unless there is one.
     fn node(&mut self, position: [f64; 3]) -> NodeId {
-        let key = position.map(|c| (c / MERGE).round() as i64);
-        let next = self.nodes.len();
-        let id = *self.at.entry(key).or_insert(next);
-        if id == next {
-            self.nodes.push(position);
+        // A node next door may have been rounded either way, so both neighbours are asked.
+        let scaled = position.map(|c| c / MERGE);
+        for corner in 0..8 {
+            let key = std::array::from_fn(|k| {
+                let up = corner >> k & 1 == 1;
+                (if up {
+                    scaled[k].ceil()
+                } else {
+                    scaled[k].floor()
+                }) as i64
+            });
+            if let Some(&id) = self.at.get(&key) {
+                return id;
+            }
         }
+        let id = self.nodes.len();
+        self.at.insert(scaled.map(|c| c.round() as i64), id);
+        self.nodes.push(position);
         id
     }
 

@@ -64,29 +64,29 @@ macro_rules! kinematics {
 
 kinematics!(
     /// Three-dimensional continuum: strain and stress in Voigt order xx, yy, zz, xy, yz, xz with
-    /// engineering shear strain [-] and stress [MPa].
+    /// engineering shear strain (-) and stress (MPa).
     Solid,
     6,
     ["eps_xx", "eps_yy", "eps_zz", "gamma_xy", "gamma_yz", "gamma_xz"],
     ["sig_xx", "sig_yy", "sig_zz", "tau_xy", "tau_yz", "tau_xz"]
 );
 kinematics!(
-    /// Plane stress in the plane of a sheet: 11, 22, 12, with engineering shear strain; stress [MPa].
+    /// Plane stress in the plane of a sheet: 11, 22, 12, with engineering shear strain; stress (MPa).
     PlaneStress,
     3,
     ["eps_11", "eps_22", "gamma_12"],
     ["sig_11", "sig_22", "tau_12"]
 );
 kinematics!(
-    /// Uniaxial bar: axial strain [-] to axial stress [MPa].
+    /// Uniaxial bar: axial strain (-) to axial stress (MPa).
     Axial,
     1,
     ["eps"],
     ["sig"]
 );
 kinematics!(
-    /// Zero-thickness interface: jump [mm] along two tangents and the normal (opening positive) to
-    /// traction [MPa].
+    /// Zero-thickness interface: jump (mm) along two tangents and the normal (opening positive) to
+    /// traction (MPa).
     Interface,
     3,
     ["slip_1", "slip_2", "opening"],

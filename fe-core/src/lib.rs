@@ -1,4 +1,23 @@
-//! Vocabulary of a nonlinear finite-element framework.
+//! Vocabulary of a nonlinear finite-element framework: meshes, laws, elements, and everything between them
+//! that does not depend on which law or which element it is.
+//!
+//! # Flow
+//!
+//! A [`mesh::Mesh`] has nodes, blocks of cells and named node sets; [`grid::GridBuilder`] makes one of
+//! boxes. Elements ([`element::Element`]) are built on its nodes with laws ([`material::Material`]) at
+//! their integration points. A [`model::Model`] numbers their DOFs, [`model::Conditions`] hold and load
+//! them. An [`assembly::Assembler`] turns a displacement and the history in a [`state::StateStore`] into
+//! forces and a matrix on a fixed [`sparsity::Sparsity`] pattern: what a solver needs. A
+//! [`output::FieldSeries`] writes what comes out.
+//!
+//! A law alone is driven by [`point::PointDriver`]. Whoever writes a law or an element finds its contract
+//! as a check in [`testing`].
+//!
+//! # Contract
+//!
+//! Laws and elements hold parameters and geometry only. An update is a pure function: it reads the
+//! committed state and writes all of the trial state. Only the step control of an analysis commits or rolls
+//! back. Results have the same bits for any number of threads.
 //!
 //! # Conventions, stated once
 //!
@@ -16,7 +35,10 @@ pub mod kinematics;
 pub mod material;
 pub mod mesh;
 pub mod model;
+pub mod output;
+pub mod point;
 pub mod shape;
 pub mod sparsity;
 pub mod state;
+pub mod testing;
 pub mod voigt;

@@ -27,6 +27,18 @@ impl StateVar {
     }
 }
 
+/// One label per entry of the state slice: the name of a scalar, `name[i]` for the components of a vector.
+pub fn state_labels(vars: &[StateVar]) -> Vec<String> {
+    vars.iter()
+        .flat_map(|v| {
+            (0..v.len).map(move |i| match v.len {
+                1 => v.name.to_owned(),
+                _ => format!("{}[{i}]", v.name),
+            })
+        })
+        .collect()
+}
+
 /// Which linearised operator a law is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Operator {
@@ -42,7 +54,7 @@ pub enum Operator {
 /// What an integration point knows beside its strain and its history.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointContext {
-    /// Crack-band width h [mm]: the length over which a crack is smeared at this point.
+    /// Crack-band width h (mm): the length over which a crack is smeared at this point.
     pub band_width: f64,
     /// Operator asked for.
     pub operator: Operator,
@@ -52,7 +64,7 @@ pub struct PointContext {
 }
 
 impl PointContext {
-    /// An inviscid point with the given crack-band width [mm], asking for the consistent tangent.
+    /// An inviscid point with the given crack-band width (mm), asking for the consistent tangent.
     pub const fn new(band_width: f64) -> Self {
         Self {
             band_width,
@@ -71,7 +83,7 @@ impl PointContext {
 /// Answer of a law at one integration point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response<K: Kinematics> {
-    /// Stress (or traction) [MPa].
+    /// Stress (or traction) (MPa).
     pub stress: K::Vector,
     /// The operator that [`PointContext::operator`] asked for.
     pub tangent: K::Tangent,
@@ -80,16 +92,16 @@ pub struct Response<K: Kinematics> {
 /// What a law reports about a point for pictures and events; zero where it does not apply.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PointReport {
-    /// Largest crack strain normal to a crack plane [-].
+    /// Largest crack strain normal to a crack plane (-).
     pub crack_strain: f64,
     /// Unit normal of that crack, zero without a crack.
     pub crack_normal: [f64; 3],
-    /// Plastic strain, Voigt [-]; a uniaxial law uses the first component.
+    /// Plastic strain, Voigt (-); a uniaxial law uses the first component.
     pub plastic_strain: [f64; 6],
     /// Share of the compressive capacity that crushing has consumed: 0 before the peak of the
     /// uniaxial curve, 1 at its residual stress.
     pub crushing: f64,
-    /// Utilisation: stress over strength (lamina rupture) [-].
+    /// Utilisation: stress over strength (lamina rupture) (-).
     pub utilisation: f64,
 }
 
@@ -121,9 +133,9 @@ pub enum MaterialError {
     BandTooWide {
         /// The law.
         law: &'static str,
-        /// Width of the point [mm].
+        /// Width of the point (mm).
         band_width: f64,
-        /// Largest width allowed [mm].
+        /// Largest width allowed (mm).
         limit: f64,
         /// Which branch is violated.
         reason: &'static str,
@@ -164,8 +176,8 @@ impl MaterialError {
 /// - `update` reads `committed`, writes **all** of `trial`, and touches nothing else; called twice
 ///   with the same input it gives the same output.
 /// - At the same strain, from the state it has just written, it gives the same stress again.
-/// - `Operator::Tangent` is the derivative of the stress this very update returns;
-///   `Operator::Secant` is symmetric positive definite.
+/// - `Operator::Tangent` is the derivative of the stress this very update returns, once what the step
+///   [latches](Material::latch) is held; `Operator::Secant` is symmetric positive definite.
 ///
 /// [`crate::testing::check_material`] checks all of it.
 pub trait Material<K: Kinematics>: Debug + Send + Sync {
@@ -212,7 +224,7 @@ pub trait Material<K: Kinematics>: Debug + Send + Sync {
     /// happened: the axes of a new crack. Default: nothing.
     fn latch(&self, _trial: &[f64], _base: &mut [f64]) {}
 
-    /// Free energy density psi [MPa = N mm/mm3] at a strain and state, if the law promises
+    /// Free energy density psi (MPa = N mm/mm3) at a strain and state, if the law promises
     /// non-negative dissipation: sigma_(n+1) : d_eps - d_psi >= 0 for every step.
     fn free_energy(&self, _strain: &K::Vector, _state: &[f64], _ctx: &PointContext) -> Option<f64> {
         None

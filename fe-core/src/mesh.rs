@@ -95,7 +95,7 @@ pub enum MeshError {
     NotFinite(NodeId),
 }
 
-/// Nodes [mm], blocks of cells, and named node sets.
+/// Nodes (mm), blocks of cells, and named node sets.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
     nodes: Vec<[f64; 3]>,
@@ -176,7 +176,7 @@ impl Mesh {
         Ok(self.sets.entry(name.into()).or_insert(members))
     }
 
-    /// Coordinates [mm].
+    /// Coordinates (mm).
     pub fn nodes(&self) -> &[[f64; 3]] {
         &self.nodes
     }
@@ -196,7 +196,15 @@ impl Mesh {
         self.sets.get(name).map_or(&[], Vec::as_slice)
     }
 
-    /// Corners of the bounding box [mm].
+    /// Names of the node sets that have members.
+    pub fn set_names(&self) -> impl Iterator<Item = &str> {
+        self.sets
+            .iter()
+            .filter(|(_, members)| !members.is_empty())
+            .map(|(name, _)| name.as_str())
+    }
+
+    /// Corners of the bounding box (mm).
     pub fn bounding_box(&self) -> [[f64; 3]; 2] {
         let mut corners = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
         for x in &self.nodes {

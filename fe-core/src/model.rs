@@ -17,7 +17,7 @@ pub enum ModelError {
         element: usize,
         /// Its first node.
         node: NodeId,
-        /// Position of that node [mm].
+        /// Position of that node (mm).
         position: [f64; 3],
         /// What the element said.
         source: Box<ElementError>,
@@ -31,7 +31,7 @@ pub enum ModelError {
         node: NodeId,
         /// DOF.
         dof: Dof,
-        /// Position of the node [mm].
+        /// Position of the node (mm).
         position: [f64; 3],
     },
     /// A condition names a node that does not exist.
@@ -41,6 +41,14 @@ pub enum ModelError {
         node: NodeId,
         /// Nodes there are.
         nodes: usize,
+    },
+    /// A node set is empty or does not exist.
+    #[error("no node is in the set {set}; the mesh has {known}")]
+    EmptySet {
+        /// Set asked for.
+        set: String,
+        /// Sets that have nodes.
+        known: String,
     },
 }
 
@@ -156,7 +164,25 @@ impl Conditions {
         self.prescribe(model, node, dof, 0.0)
     }
 
-    /// Moves a DOF by `rate` [mm] per unit of the load factor.
+    /// Holds a DOF of every node of a set: a plane of symmetry, with the displacement normal to it.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError::EmptySet`] for a set without nodes, [`ModelError::UnusedDof`] for a node without the DOF.
+    pub fn fix_set(&mut self, model: &Model, set: &str, dof: Dof) -> Result<(), ModelError> {
+        let nodes = model.mesh().set(set);
+        if nodes.is_empty() {
+            return Err(ModelError::EmptySet {
+                set: set.into(),
+                known: model.mesh().set_names().collect::<Vec<_>>().join(", "),
+            });
+        }
+        nodes
+            .iter()
+            .try_for_each(|&node| self.fix(model, node, dof))
+    }
+
+    /// Moves a DOF by `rate` (mm) per unit of the load factor.
     ///
     /// # Errors
     ///
@@ -172,7 +198,7 @@ impl Conditions {
         Ok(())
     }
 
-    /// Adds a force [N] that acts in full throughout the stage.
+    /// Adds a force (N) that acts in full throughout the stage.
     ///
     /// # Errors
     ///
@@ -188,7 +214,7 @@ impl Conditions {
         Ok(())
     }
 
-    /// Adds a force [N] per unit of the load factor.
+    /// Adds a force (N) per unit of the load factor.
     ///
     /// # Errors
     ///
@@ -209,7 +235,7 @@ impl Conditions {
         &self.prescribed
     }
 
-    /// External force [N] on all DOFs at a load factor.
+    /// External force (N) on all DOFs at a load factor.
     pub fn external(&self, lambda: f64, out: &mut [f64]) {
         for (o, (d, r)) in out.iter_mut().zip(self.dead.iter().zip(&self.reference)) {
             *o = d + lambda * r;

@@ -119,7 +119,7 @@ pub fn principal(t: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     (values, axes)
 }
 
-/// Isotropic elasticity matrix [MPa] for engineering shear strain.
+/// Isotropic elasticity matrix (MPa) for engineering shear strain.
 pub fn isotropic(young: f64, poisson: f64) -> Matrix6<f64> {
     let lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
     let shear = young / (2.0 * (1.0 + poisson));

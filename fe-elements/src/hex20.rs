@@ -6,11 +6,12 @@ use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
 use fe_core::kinematics::{Kinematics, Solid};
 use fe_core::material::{Material, Operator, PointContext};
-use fe_core::mesh::NodeId;
+use fe_core::mesh::{CellKind, NodeId};
 use fe_core::shape::{hex20, quadrature};
 use nalgebra::{Matrix6, Vector3};
 
 use crate::kernel::{self, Gradients, MAX_POINTS, PAD};
+use crate::points;
 
 /// Integration rule of a hexahedron.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +31,7 @@ impl HexRule {
     }
 }
 
-/// How the crack-band width h [mm] of an element follows from its shape.
+/// How the crack-band width h (mm) of an element follows from its shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum BandWidth {
     /// Cube root of the volume a point stands for.
@@ -42,7 +43,7 @@ pub enum BandWidth {
         /// Factor on the side of the equivalent square.
         factor: f64,
     },
-    /// The same for every point [mm].
+    /// The same for every point (mm).
     Fixed(f64),
 }
 
@@ -73,7 +74,7 @@ pub struct Hex20 {
 }
 
 impl Hex20 {
-    /// An element at node coordinates `coords` [mm].
+    /// An element at node coordinates `coords` (mm).
     ///
     /// # Errors
     ///
@@ -118,12 +119,12 @@ impl Hex20 {
         })
     }
 
-    /// Volume [mm3].
+    /// Volume (mm3).
     pub fn volume(&self) -> f64 {
         self.points.iter().map(|p| p.1).sum()
     }
 
-    /// Crack-band width h [mm].
+    /// Crack-band width h (mm).
     pub const fn band_width(&self) -> f64 {
         self.band_width
     }
@@ -151,10 +152,7 @@ impl Element for Hex20 {
     }
 
     fn init_state(&self, state: &mut [f64]) {
-        let n = self.law.state_len();
-        for p in 0..self.points.len() {
-            self.law.init_state(&mut state[p * n..(p + 1) * n]);
-        }
+        points::init_state(self.law.as_ref(), state);
     }
 
     fn evaluate(
@@ -201,17 +199,16 @@ impl Element for Hex20 {
         Ok(())
     }
 
+    fn cell(&self) -> Option<CellKind> {
+        Some(CellKind::Hex20)
+    }
+
     fn unsymmetric(&self) -> bool {
         self.law.unsymmetric_tangent()
     }
 
     fn latch(&self, trial: &[f64], base: &mut [f64]) {
-        let n = self.law.state_len();
-        if n > 0 {
-            for (t, b) in trial.chunks_exact(n).zip(base.chunks_exact_mut(n)) {
-                self.law.latch(t, b);
-            }
-        }
+        points::latch(self.law.as_ref(), trial, base);
     }
 
     fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {

@@ -5,6 +5,7 @@ pub mod embedded_bar;
 pub mod hex20;
 mod kernel;
 pub mod loads;
+mod points;
 pub mod quad8;
 
 pub use embedded_bar::{Bar, Dowel, EmbeddedBar, embed};

@@ -6,9 +6,11 @@ use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext};
 use fe_core::kinematics::PlaneStress;
 use fe_core::material::{Material, Operator, PointContext};
-use fe_core::mesh::NodeId;
+use fe_core::mesh::{CellKind, NodeId};
 use fe_core::shape::{quad8, quadrature};
 use nalgebra::{Matrix2, Matrix3, Vector3};
+
+use crate::points;
 
 /// Integration rule of a quadrilateral.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,7 +25,7 @@ pub enum QuadRule {
 #[derive(Debug)]
 pub struct Quad8 {
     nodes: [NodeId; 8],
-    /// Gradients [1/mm] and volume [mm3] of each point.
+    /// Gradients (1/mm) and volume (mm3) of each point.
     points: Vec<([[f64; 2]; 8], f64)>,
     band_width: f64,
     law: Arc<dyn Material<PlaneStress>>,
@@ -32,7 +34,7 @@ pub struct Quad8 {
 const DOFS: [Dof; 2] = [Dof::Ux, Dof::Uy];
 
 impl Quad8 {
-    /// An element at `coords` [mm] with `thickness` [mm].
+    /// An element at `coords` (mm) with `thickness` (mm).
     ///
     /// # Errors
     ///
@@ -100,10 +102,7 @@ impl Element for Quad8 {
     }
 
     fn init_state(&self, state: &mut [f64]) {
-        let n = self.law.state_len();
-        for p in 0..self.points.len() {
-            self.law.init_state(&mut state[p * n..(p + 1) * n]);
-        }
+        points::init_state(self.law.as_ref(), state);
     }
 
     fn evaluate(
@@ -160,16 +159,15 @@ impl Element for Quad8 {
         Ok(())
     }
 
+    fn cell(&self) -> Option<CellKind> {
+        Some(CellKind::Quad8)
+    }
+
     fn unsymmetric(&self) -> bool {
         self.law.unsymmetric_tangent()
     }
 
     fn latch(&self, trial: &[f64], base: &mut [f64]) {
-        let n = self.law.state_len();
-        if n > 0 {
-            for (t, b) in trial.chunks_exact(n).zip(base.chunks_exact_mut(n)) {
-                self.law.latch(t, b);
-            }
-        }
+        points::latch(self.law.as_ref(), trial, base);
     }
 }

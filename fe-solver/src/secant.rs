@@ -219,7 +219,7 @@ impl Driver for SecantAnderson {
                     break;
                 }
                 if solve.iterations < self.settings.max_iterations / 2 {
-                    relaxation = 1.0 - 0.6 * (1.0 - relaxation);
+                    relaxation = (1.6 * relaxation).min(1.0 - 0.6 * (1.0 - relaxation));
                 }
             }
             solve.free = free;

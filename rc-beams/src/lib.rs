@@ -1,7 +1,16 @@
 //! Simulates the reinforced-concrete beams of Khalifa (1999) from first crack to failure.
 
+pub mod analysis;
+pub mod build;
+pub mod cli;
 pub mod exit;
+pub mod input;
+pub mod list;
 pub mod options;
+pub mod output;
+pub mod point;
+pub mod ronfile;
 pub mod results;
 pub mod run;
 pub mod spec;
+mod suggest;

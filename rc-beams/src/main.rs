@@ -1,3 +1,7 @@
 //! The program `rc-beams`.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    rc_beams::cli::main().into()
+}

@@ -9,7 +9,7 @@ use serde::Serialize;
 /// How specimens are modelled, solved and written.
 #[derive(Debug, Clone, PartialEq, Serialize, Args)]
 pub struct RunOptions {
-    /// Meaning of the reported concrete strength
+    /// Set of modelling choices
     #[arg(long, value_enum, default_value_t)]
     pub preset: Preset,
 
@@ -17,9 +17,9 @@ pub struct RunOptions {
     #[arg(long, value_name = "NXxNYxNZ")]
     pub mesh: Option<MeshSize>,
 
-    /// Integration points of the concrete elements
-    #[arg(long, value_enum, default_value_t)]
-    pub integration: Integration,
+    /// Integration points of the concrete elements; without it, those of the preset
+    #[arg(long, value_enum)]
+    pub integration: Option<Integration>,
 
     /// Law of the concrete
     #[arg(long, value_enum, default_value_t)]
@@ -33,7 +33,7 @@ pub struct RunOptions {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub steps: Option<u32>,
 
-    /// Final deflection imposed on the loads [mm]; without it, that of the specimen
+    /// Final deflection imposed on the loads (mm); without it, that of the specimen
     #[arg(long = "until", value_name = "MM", value_parser = deflection, allow_negative_numbers = true)]
     pub until_mm: Option<f64>,
 
@@ -50,23 +50,22 @@ pub struct RunOptions {
     pub fields: Fields,
 }
 
-/// Meaning of the reported concrete strength.
+/// Set of modelling choices.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Preset {
-    /// The mean strength
+    /// The reported strength is the mean; full integration, dowel action of the bars
     #[default]
     Default,
-    /// The characteristic strength: the mean is 8 MPa more
+    /// The reported strength is characteristic (mean: 8 MPa more); reduced integration, no dowel action
     Characteristic,
 }
 
 /// Integration points of the concrete elements.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Integration {
     /// 2x2x2
-    #[default]
     Reduced,
     /// 3x3x3
     Full,
@@ -154,7 +153,7 @@ impl FromStr for MeshSize {
     }
 }
 
-/// A deflection of the command line [mm].
+/// A deflection of the command line (mm).
 fn deflection(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| {
         let hint = if text.contains(',') {

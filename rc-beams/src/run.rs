@@ -13,6 +13,15 @@ pub enum RunError {
     NotBuilt,
 }
 
+impl RunError {
+    /// How the program ends because of it.
+    pub fn exit(&self) -> Exit {
+        match self {
+            Self::NotBuilt => Exit::StoppedEarly,
+        }
+    }
+}
+
 /// Runs the specimens one after the other.
 ///
 /// # Errors

@@ -1,1 +1,12 @@
-//! Shared helpers of the verification cases.
+//! Scenes that the verification cases share: meshes, laws made for a test, and one-call solutions.
+//!
+//! The cases themselves are in `tests/`, one file per family, each named after its entry in the list of the
+//! README.
+
+pub mod beam;
+pub mod conditions;
+pub mod dense;
+pub mod laws;
+pub mod mesh;
+pub mod solve;
+pub mod stress;

@@ -69,7 +69,7 @@ pub fn shape(xi: [f64; 3]) -> ([f64; 20], [[f64; 3]; 20]) {
     (values, slopes)
 }
 
-/// Position, gradients dN/dx [1/mm] and Jacobian determinant [mm3] at a natural point.
+/// Position, gradients dN/dx (1/mm) and Jacobian determinant (mm3) at a natural point.
 pub fn map(coords: &[[f64; 3]; 20], xi: [f64; 3]) -> (Vector3<f64>, [[f64; 3]; 20], f64) {
     let (values, slopes) = shape(xi);
     let mut position = Vector3::zeros();

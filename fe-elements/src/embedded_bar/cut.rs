@@ -7,10 +7,13 @@ use nalgebra::{Matrix3, Vector3};
 
 /// Natural coordinates up to 1 + this count as inside: a bar on a face must find its host.
 const INSIDE: f64 = 1e-9;
-/// Intervals shorter than this share of a segment are dropped.
-const SLIVER: f64 = 1e-10;
-/// Samples per segment in a distorted host, between which entries and exits are bracketed.
+/// Share of a segment below which a stretch is rounding and gets no piece of its own.
+const SLIVER: f64 = 1e-14;
+/// Samples along a segment within the bounding box of a distorted host. A stretch outside that is shorter
+/// than the spacing of the samples is not seen: the map of the host is continued there.
 const SAMPLES: usize = 64;
+/// Bisections of the distance between two samples, down to rounding.
+const BISECTIONS: usize = 50;
 
 /// A hexahedron that can carry bars.
 #[derive(Debug, Clone)]
@@ -19,6 +22,7 @@ pub(super) struct Host {
     pub(super) coords: [[f64; 3]; 20],
     /// For an affine cell: centre and the map from position to natural coordinates.
     affine: Option<(Vector3<f64>, Matrix3<f64>)>,
+    /// Corners of a box that holds the cell: curved faces may bulge beyond the nodes.
     low: Vector3<f64>,
     high: Vector3<f64>,
 }
@@ -28,8 +32,46 @@ pub(super) struct Host {
 pub(super) struct Piece {
     pub(super) host: usize,
     pub(super) ends: [Vector3<f64>; 2],
-    /// Arc length of the first end along the bar [mm].
+    /// Unit vector from the first end to the second.
+    pub(super) direction: Vector3<f64>,
+    /// Arc length of the first end along the bar (mm).
     pub(super) start: f64,
+}
+
+/// A segment a + t (b - a), t in [0, 1].
+#[derive(Debug, Clone, Copy)]
+struct Segment {
+    a: Vector3<f64>,
+    direction: Vector3<f64>,
+}
+
+impl Segment {
+    fn at(&self, t: f64) -> Vector3<f64> {
+        self.a + t * self.direction
+    }
+
+    /// Smallest t at which the segment, inside the box at `from`, leaves it; at most 1.
+    ///
+    /// A segment that stays within `tolerance` of a plane does not cross it.
+    fn leaves_box(
+        &self,
+        from: f64,
+        low: &Vector3<f64>,
+        high: &Vector3<f64>,
+        tolerance: f64,
+    ) -> f64 {
+        let end = self.at(1.0);
+        let mut exit = 1.0_f64;
+        for k in 0..3 {
+            let d = self.direction[k];
+            if end[k] > high[k] + tolerance {
+                exit = exit.min((high[k] - self.a[k]) / d);
+            } else if end[k] < low[k] - tolerance {
+                exit = exit.min((low[k] - self.a[k]) / d);
+            }
+        }
+        exit.max(from)
+    }
 }
 
 impl Host {
@@ -44,12 +86,13 @@ impl Host {
             Vector3::from_fn(|k, _| coords.iter().map(|c| c[k]).fold(start, f))
         };
         let (low, high) = (fold(f64::MAX, f64::min), fold(f64::MIN, f64::max));
+        let slack = Vector3::repeat(0.1 * (high - low).norm());
         Self {
             nodes,
             coords: *coords,
             affine: affine.flatten(),
-            low,
-            high,
+            low: low - slack,
+            high: high + slack,
         }
     }
 
@@ -65,124 +108,91 @@ impl Host {
         }
     }
 
-    /// Parameters in [0, 1] between which the segment from `a` to `b` runs inside.
-    fn intervals(&self, a: Vector3<f64>, b: Vector3<f64>) -> Vec<(f64, f64)> {
-        let slack = 0.05 * (self.high - self.low).norm();
-        for k in 0..3 {
-            if a[k].max(b[k]) < self.low[k] - slack || a[k].min(b[k]) > self.high[k] + slack {
-                return Vec::new();
-            }
-        }
-        match &self.affine {
-            Some((centre, map)) => clip(map * (a - centre), map * (b - centre))
-                .into_iter()
-                .collect(),
-            None => self.search(a, b),
-        }
+    /// How far a point lies outside in natural coordinates: negative inside.
+    fn outside(&self, point: Vector3<f64>) -> f64 {
+        self.natural(point).map_or(f64::INFINITY, |xi| {
+            xi.iter().fold(0.0_f64, |m, c| m.max(c.abs())) - 1.0
+        })
     }
 
-    fn search(&self, a: Vector3<f64>, b: Vector3<f64>) -> Vec<(f64, f64)> {
-        let outside = |t: f64| -> f64 {
-            self.natural(a + t * (b - a)).map_or(1.0, |xi| {
-                xi.iter().fold(0.0_f64, |m, c| m.max(c.abs())) - 1.0 - INSIDE
-            })
+    /// Parameter at which `segment` leaves the cell, or `None` if it is not inside at `from`.
+    fn exit(&self, segment: &Segment, from: f64) -> Option<f64> {
+        let point = segment.at(from);
+        let in_box = (0..3).all(|k| point[k] >= self.low[k] && point[k] <= self.high[k]);
+        if !in_box || self.outside(point) > INSIDE {
+            return None;
+        }
+        let Some((centre, map)) = &self.affine else {
+            return Some(self.first_crossing(segment, from));
         };
-        let edge = |mut low: f64, mut high: f64, entering: bool| {
-            for _ in 0..60 {
-                let mid = low.midpoint(high);
-                if (outside(mid) <= 0.0) == entering {
-                    high = mid;
-                } else {
-                    low = mid;
-                }
-            }
-            low.midpoint(high)
+        let natural = Segment {
+            a: map * (segment.a - centre),
+            direction: map * segment.direction,
         };
-        let mut found = Vec::new();
-        let mut since = (outside(0.0) <= 0.0).then_some(0.0);
+        let (low, high) = (Vector3::repeat(-1.0), Vector3::repeat(1.0));
+        Some(natural.leaves_box(from, &low, &high, INSIDE))
+    }
+
+    /// First crossing of a face after `from`, by sampling and bisection.
+    fn first_crossing(&self, segment: &Segment, from: f64) -> f64 {
+        let end = segment.leaves_box(from, &self.low, &self.high, 0.0);
+        let mut inside = from;
         for i in 1..=SAMPLES {
-            let (before, t) = ((i - 1) as f64 / SAMPLES as f64, i as f64 / SAMPLES as f64);
-            let inside = outside(t) <= 0.0;
-            match (since, inside) {
-                (None, true) => since = Some(edge(before, t, true)),
-                (Some(start), false) => {
-                    found.push((start, edge(before, t, false)));
-                    since = None;
+            let t = from + (end - from) * i as f64 / SAMPLES as f64;
+            if self.outside(segment.at(t)) <= INSIDE {
+                inside = t;
+                continue;
+            }
+            // The face itself, unless the segment crept along it up to here.
+            let face = self.outside(segment.at(inside)).max(0.0);
+            let mut outside = t;
+            for _ in 0..BISECTIONS {
+                let mid = inside.midpoint(outside);
+                if self.outside(segment.at(mid)) <= face {
+                    inside = mid;
+                } else {
+                    outside = mid;
                 }
-                _ => {}
             }
+            return inside;
         }
-        found.extend(since.map(|start| (start, 1.0)));
-        found
+        end
     }
 }
 
-/// Liang and Barsky's clipping of a segment in natural coordinates against the cube.
-fn clip(a: Vector3<f64>, b: Vector3<f64>) -> Option<(f64, f64)> {
-    let (mut low, mut high) = (0.0_f64, 1.0_f64);
-    for k in 0..3 {
-        let d = b[k] - a[k];
-        if d.abs() < 1e-12 {
-            if a[k].abs() > 1.0 + INSIDE {
-                return None;
-            }
-            continue;
-        }
-        let (t0, t1) = ((-1.0 - a[k]) / d, (1.0 - a[k]) / d);
-        low = low.max(t0.min(t1));
-        high = high.min(t0.max(t1));
-    }
-    (high - low > SLIVER).then_some((low, high))
-}
-
-/// Pieces of the segment from `a` to `b`, every stretch in exactly one host.
+/// Pieces of the segment from `a` to `b`, every stretch in exactly one host: of several that hold it, the
+/// first.
 pub(super) fn cut(
-    name: &str,
+    bar: &str,
     a: Vector3<f64>,
     b: Vector3<f64>,
     travelled: f64,
     hosts: &[Host],
 ) -> Result<Vec<Piece>, ElementError> {
-    let length = (b - a).norm();
-    let mut claims: Vec<(f64, f64, usize)> = Vec::new();
-    for (h, host) in hosts.iter().enumerate() {
-        claims.extend(
-            host.intervals(a, b)
-                .into_iter()
-                .map(|(low, high)| (low, high, h)),
-        );
-    }
-    claims.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.2.cmp(&y.2)));
-    let mut pieces = Vec::new();
-    let mut reached = 0.0;
-    let gap = 1e-9_f64.max(1e-7 / length);
-    let no_host = |t: f64| {
-        let at = a + t * (b - a);
-        ElementError::NoHost {
-            bar: name.into(),
-            x: at[0],
-            y: at[1],
-            z: at[2],
-        }
+    let segment = Segment {
+        a,
+        direction: b - a,
     };
-    // Sweep: each claim extends what is covered; of equal starts the first host wins, unless it ends at once.
-    while reached < 1.0 - gap {
-        let next = claims
-            .iter()
-            .filter(|(low, high, _)| *low <= reached + gap && *high > reached + gap)
-            .min_by_key(|c| c.2)
-            .ok_or_else(|| no_host(reached + 0.5 * gap))?;
-        let end = next.1.min(1.0);
+    let length = segment.direction.norm();
+    let mut pieces: Vec<Piece> = Vec::new();
+    let mut reached = 0.0;
+    while reached < 1.0 - SLIVER {
+        let ahead = |(h, host): (usize, &Host)| {
+            let exit = host.exit(&segment, reached)?;
+            (exit > reached + SLIVER).then_some((h, exit))
+        };
+        let Some((host, exit)) = hosts.iter().enumerate().find_map(ahead) else {
+            let [x, y, z] = segment.at(reached).into();
+            let bar = bar.into();
+            return Err(ElementError::NoHost { bar, x, y, z });
+        };
         pieces.push(Piece {
-            host: next.2,
-            ends: [a + reached * (b - a), a + end * (b - a)],
+            host,
+            ends: [segment.at(reached), segment.at(exit)],
+            direction: segment.direction / length,
             start: travelled + reached * length,
         });
-        reached = end;
-    }
-    // The last sliver belongs to the last piece.
-    if let Some(last) = pieces.last_mut() {
-        last.ends[1] = b;
+        reached = exit;
     }
     Ok(pieces)
 }

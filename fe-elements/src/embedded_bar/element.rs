@@ -12,6 +12,7 @@ use nalgebra::{Vector1, Vector3};
 
 use super::cut::{Host, Piece};
 use super::{Bar, gradients_at};
+use crate::points;
 
 /// Row vector of 60 entries, DOF order node-major.
 type Row = [f64; 60];
@@ -48,8 +49,7 @@ impl EmbeddedBar {
         let mut drawn = Vec::new();
         for piece in pieces {
             let [a, b] = piece.ends;
-            let length = (b - a).norm();
-            let t = (b - a) / length;
+            let (length, t) = ((b - a).norm(), piece.direction);
             let transverse = bar
                 .dowel
                 .and_then(|d| Vector3::from(d.plane_normal).cross(&t).try_normalize(1e-6));
@@ -90,12 +90,12 @@ impl EmbeddedBar {
         &self.bar
     }
 
-    /// Length of the bar inside this host [mm].
+    /// Length of the bar inside this host (mm).
     pub fn length(&self) -> f64 {
         self.points.iter().map(|p| p.weight).sum()
     }
 
-    /// Axial strain and stress [MPa] at every point with its arc length along the bar [mm].
+    /// Axial strain and stress (MPa) at every point with its arc length along the bar (mm).
     ///
     /// # Errors
     ///
@@ -176,10 +176,7 @@ impl Element for EmbeddedBar {
     }
 
     fn init_state(&self, state: &mut [f64]) {
-        let n = self.law.state_len();
-        for p in 0..self.points.len() {
-            self.law.init_state(&mut state[p * n..(p + 1) * n]);
-        }
+        points::init_state(self.law.as_ref(), state);
     }
 
     fn evaluate(
@@ -224,6 +221,10 @@ impl Element for EmbeddedBar {
             }
         }
         Ok(())
+    }
+
+    fn latch(&self, trial: &[f64], base: &mut [f64]) {
+        points::latch(self.law.as_ref(), trial, base);
     }
 
     fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {

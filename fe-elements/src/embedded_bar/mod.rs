@@ -28,9 +28,9 @@ use cut::{Host, Piece};
 pub struct Bar {
     /// Name, for messages and gauges.
     pub name: String,
-    /// Corners of the polyline [mm].
+    /// Corners of the polyline (mm).
     pub polyline: Vec<[f64; 3]>,
-    /// Cross-section [mm2].
+    /// Cross-section (mm2).
     pub area_mm2: f64,
     /// Uniaxial law.
     pub law: Arc<dyn Material<Axial>>,
@@ -71,7 +71,23 @@ impl Bar {
                 "give coordinates in mm",
             ));
         }
+        if self.length_mm() <= 0.0 {
+            return Err(input(
+                "length_mm",
+                0.0,
+                "(0, inf)",
+                "give two different points",
+            ));
+        }
         Ok(())
+    }
+
+    /// Length of the polyline (mm).
+    pub fn length_mm(&self) -> f64 {
+        let segments = self.polyline.windows(2);
+        segments
+            .map(|w| (Vector3::from(w[1]) - Vector3::from(w[0])).norm())
+            .sum()
     }
 }
 
@@ -82,23 +98,14 @@ impl Bar {
 ///
 /// # Errors
 ///
-/// [`ElementError::NoHost`] naming the first point of a bar that lies in no host, [`ElementError::Input`] for
-/// an impossible bar.
+/// [`ElementError::NoHost`] naming the first point of a bar that lies in no host,
+/// [`ElementError::NoSuchBlock`] for an unknown block, [`ElementError::Input`] for an impossible bar.
 pub fn embed(
     bars: &[Bar],
     mesh: &Mesh,
     host_blocks: &[&str],
 ) -> Result<Vec<EmbeddedBar>, ElementError> {
-    let mut hosts = Vec::new();
-    for block in mesh.blocks() {
-        if block.kind != CellKind::Hex20 || !host_blocks.contains(&block.name.as_str()) {
-            continue;
-        }
-        for cell in block.cells() {
-            let nodes: [NodeId; 20] = std::array::from_fn(|a| cell[a]);
-            hosts.push(Host::new(nodes, &nodes.map(|n| mesh.nodes()[n])));
-        }
-    }
+    let hosts = hosts(mesh, host_blocks)?;
     let mut elements = Vec::new();
     for bar in bars {
         bar.check()?;
@@ -127,7 +134,25 @@ pub fn embed(
     Ok(elements)
 }
 
-/// Gradients [1/mm] of the host's shape functions at a point [mm] inside it.
+/// Cells of the named blocks, in the order of the mesh.
+fn hosts(mesh: &Mesh, names: &[&str]) -> Result<Vec<Host>, ElementError> {
+    let hexahedra = || mesh.blocks().iter().filter(|b| b.kind == CellKind::Hex20);
+    if let Some(unknown) = names.iter().find(|n| hexahedra().all(|b| b.name != **n)) {
+        let known: Vec<&str> = hexahedra().map(|b| b.name.as_str()).collect();
+        return Err(ElementError::NoSuchBlock {
+            block: (*unknown).into(),
+            known: known.join(", "),
+        });
+    }
+    let named = hexahedra().filter(|b| names.contains(&b.name.as_str()));
+    let host = |cell: &[NodeId]| {
+        let nodes: [NodeId; 20] = std::array::from_fn(|a| cell[a]);
+        Host::new(nodes, &nodes.map(|n| mesh.nodes()[n]))
+    };
+    Ok(named.flat_map(|b| b.cells().map(host)).collect())
+}
+
+/// Gradients (1/mm) of the host's shape functions at a point (mm) inside it.
 fn gradients_at(host: &Host, point: Vector3<f64>) -> Option<[[f64; 3]; 20]> {
     let xi = host.natural(point)?;
     Some(hex20::map(&host.coords, xi).1)

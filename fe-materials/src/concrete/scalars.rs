@@ -2,18 +2,18 @@
 
 use fe_core::material::MaterialError;
 
-use super::limits::out_of_range;
+use crate::limits::out_of_range;
 
 const LAW: &str = "concrete properties";
 
-/// fcm - fck [MPa] (fib Model Code 2010, 5.1-1).
+/// fcm - fck (MPa) (fib Model Code 2010, 5.1-1).
 const STRENGTH_MARGIN: f64 = 8.0;
 
-/// Characteristic strengths that the tables below cover [MPa]. From 8 to 12 MPa, below the first class of
+/// Characteristic strengths that the tables below cover (MPa). From 8 to 12 MPa, below the first class of
 /// the Code, the tabulated strains keep their value at 12 MPa (assumed).
 const FCK_RANGE: (f64, f64) = (8.0, 60.0);
 
-/// fck [MPa] and eps_c1 [-] (fib Model Code 2010, table 5.1-8).
+/// fck (MPa) and eps_c1 (-) (fib Model Code 2010, table 5.1-8).
 const PEAK_STRAIN: [(f64, f64); 11] = [
     (12.0, 1.9e-3),
     (16.0, 2.0e-3),
@@ -28,7 +28,7 @@ const PEAK_STRAIN: [(f64, f64); 11] = [
     (60.0, 2.7e-3),
 ];
 
-/// fck [MPa] and eps_c,lim [-] (fib Model Code 2010, table 5.1-8).
+/// fck (MPa) and eps_c,lim (-) (fib Model Code 2010, table 5.1-8).
 const LIMIT_STRAIN: [(f64, f64); 4] = [
     (45.0, 3.5e-3),
     (50.0, 3.4e-3),
@@ -53,24 +53,24 @@ const LIMIT_STRAIN: [(f64, f64); 4] = [
 /// Every field may be overwritten before a law is built from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ConcreteScalars {
-    /// Mean compressive cylinder strength fcm [MPa].
+    /// Mean compressive cylinder strength fcm (MPa).
     pub fcm_mpa: f64,
-    /// Mean tensile strength fctm [MPa].
+    /// Mean tensile strength fctm (MPa).
     pub fctm_mpa: f64,
-    /// Initial Young's modulus Eci [MPa].
+    /// Initial Young's modulus Eci (MPa).
     pub young_mpa: f64,
-    /// Poisson's ratio [-].
+    /// Poisson's ratio (-).
     pub poisson: f64,
-    /// Strain at the compressive strength, positive [-].
+    /// Strain at the compressive strength, positive (-).
     pub eps_c1: f64,
-    /// Strain at which the compression curve ends, positive [-].
+    /// Strain at which the compression curve ends, positive (-).
     pub eps_c_lim: f64,
-    /// Fracture energy G_F [N/mm].
+    /// Fracture energy G_F (N/mm).
     pub fracture_energy: f64,
 }
 
 impl ConcreteScalars {
-    /// Properties from a characteristic cylinder strength fck [MPa].
+    /// Properties from a characteristic cylinder strength fck (MPa).
     ///
     /// # Errors
     ///
@@ -104,7 +104,7 @@ impl ConcreteScalars {
         })
     }
 
-    /// Properties from a mean cylinder strength fcm [MPa]: fck = fcm - 8.
+    /// Properties from a mean cylinder strength fcm (MPa): fck = fcm - 8.
     ///
     /// # Errors
     ///
@@ -127,13 +127,13 @@ impl ConcreteScalars {
         })
     }
 
-    /// Plasticity number k = Eci eps_c1/fcm of the compression curve [-] (fib Model Code 2010, 5.1-26),
+    /// Plasticity number k = Eci eps_c1/fcm of the compression curve (-) (fib Model Code 2010, 5.1-26),
     /// computed, so that modulus, strain and strength agree.
     pub fn plasticity_number(&self) -> f64 {
         self.young_mpa * self.eps_c1 / self.fcm_mpa
     }
 
-    /// Shear modulus G0 = Eci/(2 (1 + nu)) [MPa].
+    /// Shear modulus G0 = Eci/(2 (1 + nu)) (MPa).
     pub fn shear_modulus(&self) -> f64 {
         self.young_mpa / (2.0 * (1.0 + self.poisson))
     }
@@ -153,7 +153,7 @@ fn interpolate(table: &[(f64, f64)], x: f64) -> f64 {
 mod tests {
     //! Protects the formulas and tables of the Code.
     use super::ConcreteScalars;
-    use crate::concrete::limits::out_of_range;
+    use crate::limits::out_of_range;
 
     /// Source: fib Model Code 2010 evaluated independently for the concretes of the beams.
     /// Target: the printed digits.

@@ -100,7 +100,7 @@ impl FixedCrack {
         Ok(Response { stress, tangent })
     }
 
-    /// Free energy density of a cracked point [MPa].
+    /// Free energy density of a cracked point (MPa).
     pub(super) fn cracked_energy(
         &self,
         strain: &Vector6<f64>,

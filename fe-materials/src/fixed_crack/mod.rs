@@ -49,21 +49,21 @@ const OPERATOR_FLOOR: f64 = 1e-4;
 /// Parameters of [`FixedCrack`]; N, mm, MPa.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FixedCrackParameters {
-    /// Young's modulus E [MPa].
+    /// Young's modulus E (MPa).
     pub young_mpa: f64,
-    /// Poisson's ratio before cracking [-].
+    /// Poisson's ratio before cracking (-).
     pub poisson: f64,
-    /// Mean compressive strength fcm [MPa].
+    /// Mean compressive strength fcm (MPa).
     pub fcm_mpa: f64,
-    /// Tensile strength ft [MPa].
+    /// Tensile strength ft (MPa).
     pub ft_mpa: f64,
-    /// Strain at the compressive strength, positive [-].
+    /// Strain at the compressive strength, positive (-).
     pub eps_c1: f64,
-    /// Fracture energy G_F [N/mm].
+    /// Fracture energy G_F (N/mm).
     pub fracture_energy: f64,
-    /// Crushing energy G_c [N/mm].
+    /// Crushing energy G_c (N/mm).
     pub crushing_energy: f64,
-    /// Floor b_min of the shear factor of open cracks [-]; assumed, and without influence on beams whose
+    /// Floor b_min of the shear factor of open cracks (-); assumed, and without influence on beams whose
     /// bars have dowel action between 1e-5 and 1e-3.
     pub shear_floor: f64,
 }
@@ -169,7 +169,7 @@ struct State {
     kt: [f64; 3],
     /// Largest compressive strain per axis (cracked) or principal rank (uncracked).
     kc: [f64; 3],
-    /// Tensile strength of the first axis: sigma_1 at onset [MPa].
+    /// Tensile strength of the first axis: sigma_1 at onset (MPa).
     onset: f64,
     /// Largest consumed share of the descending branch in compression.
     crushing: f64,

@@ -106,7 +106,7 @@ impl GeneralFactor {
         self.probe(values)
     }
 
-    /// The factorisation reports no singularity; the solution of a row-scaled unit load does.
+    /// The factorisation reports no singularity; the solution of a load scaled by rows does.
     fn probe(&mut self, values: &MatrixValues) -> Result<(), LinearError> {
         let n = self.col_ptr.len() - 1;
         let mut diagonal = vec![0.0; n];
@@ -117,15 +117,9 @@ impl GeneralFactor {
                 }
             }
         }
-        let mut x: Vec<f64> = (0..n)
-            .map(|i| {
-                if i % 2 == 0 {
-                    diagonal[i]
-                } else {
-                    -0.7 * diagonal[i]
-                }
-            })
-            .collect();
+        // Irregular shares (multiples of the golden ratio): no rigid-body mode is orthogonal to them.
+        let share = |i: usize| 0.5 + (0.618_033_988_749_895 * i as f64).fract();
+        let mut x: Vec<f64> = (0..n).map(|i| share(i) * diagonal[i]).collect();
         self.solve(&mut x);
         let mut worst = (0, 0.0);
         for (i, v) in x.iter().enumerate() {

@@ -3,9 +3,9 @@
 /// An interval of the axis that must be meshed with its own even number of elements: a plate or stub.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patch {
-    /// Centre [mm].
+    /// Centre (mm).
     pub centre: f64,
-    /// Length along the axis [mm].
+    /// Length along the axis (mm).
     pub length: f64,
 }
 
@@ -35,7 +35,13 @@ pub fn axis_lines(length: f64, patches: &[Patch], elements: usize) -> Option<Vec
     let mut cells: Vec<usize> = spans
         .iter()
         .zip(&is_patch)
-        .map(|(s, &patch)| if patch { 2 * ((s / average / 2.0).round() as usize).max(1) } else { 0 })
+        .map(|(s, &patch)| {
+            if patch {
+                2 * ((s / average / 2.0).round() as usize).max(1)
+            } else {
+                0
+            }
+        })
         .collect();
     let gaps: Vec<usize> = (0..spans.len()).filter(|&i| !is_patch[i]).collect();
     let free: f64 = gaps.iter().map(|&i| spans[i]).sum();
@@ -51,9 +57,14 @@ pub fn axis_lines(length: f64, patches: &[Patch], elements: usize) -> Option<Vec
         let missing = cells.iter().sum::<usize>() < elements;
         let key = |&i: &usize| ideal(i) - cells[i] as f64;
         let pick = if missing {
-            gaps.iter().copied().max_by(|a, b| key(a).total_cmp(&key(b)).then(b.cmp(a)))
+            gaps.iter()
+                .copied()
+                .max_by(|a, b| key(a).total_cmp(&key(b)).then(b.cmp(a)))
         } else {
-            gaps.iter().copied().filter(|&i| cells[i] > 1).min_by(|a, b| key(a).total_cmp(&key(b)))
+            gaps.iter()
+                .copied()
+                .filter(|&i| cells[i] > 1)
+                .min_by(|a, b| key(a).total_cmp(&key(b)))
         }?;
         if missing {
             cells[pick] += 1;
@@ -70,7 +81,9 @@ pub fn axis_lines(length: f64, patches: &[Patch], elements: usize) -> Option<Vec
 
 /// `n` equal cells from `low` to `high`.
 pub fn equal_lines(low: f64, high: f64, n: usize) -> Vec<f64> {
-    (0..=n).map(|k| low + (high - low) * k as f64 / n as f64).collect()
+    (0..=n)
+        .map(|k| low + (high - low) * k as f64 / n as f64)
+        .collect()
 }
 
 #[cfg(test)]
@@ -81,11 +94,20 @@ mod tests {
     #[test]
     fn the_reference_mesh_comes_out() {
         let patches: Vec<Patch> = [610.0, 1370.0, 1680.0, 2440.0]
-            .map(|centre| Patch { centre, length: 100.0 })
+            .map(|centre| Patch {
+                centre,
+                length: 100.0,
+            })
             .into();
         let lines = axis_lines(3050.0, &patches, 60).unwrap();
         assert_eq!(lines.len(), 61);
-        for (line, index) in [(560.0, 11), (660.0, 13), (1320.0, 26), (1420.0, 28), (1630.0, 32)] {
+        for (line, index) in [
+            (560.0, 11),
+            (660.0, 13),
+            (1320.0, 26),
+            (1420.0, 28),
+            (1630.0, 32),
+        ] {
             assert!((lines[index] - line).abs() < 1e-9);
         }
         assert_eq!(axis_lines(3050.0, &patches, 32).unwrap().len(), 33);

@@ -1,12 +1,14 @@
 //! The specimen file: what a beam is, in the words of the test report.
 
 mod builtin;
+mod check;
 mod quantity;
 mod read;
 mod reinforcement;
 mod specimen;
 
 pub use builtin::BUILTIN;
+pub use check::{Finding, check};
 pub use quantity::*;
 pub use read::read;
 pub use reinforcement::*;

@@ -117,46 +117,46 @@ macro_rules! quantities {
 }
 
 quantities! {
-    /// Compressive strength of concrete [MPa].
+    /// Compressive strength of concrete (MPa).
     ConcreteStrength: MPA in 5.0 to 120.0;
-    /// Tensile strength of concrete [MPa].
+    /// Tensile strength of concrete (MPa).
     TensileStrength: MPA in 0.3 to 10.0;
-    /// Young's modulus of concrete [MPa].
+    /// Young's modulus of concrete (MPa).
     ConcreteModulus: MPA in 5000.0 to 60000.0;
     /// Poisson's ratio.
     Poisson: NUMBER in 0.0 to 0.45;
-    /// Density [kg/m3].
+    /// Density (kg/m3).
     Density: KG_M3 in 1000.0 to 4000.0;
-    /// Acceleration of gravity [m/s2].
+    /// Acceleration of gravity (m/s2).
     Acceleration: M_S2 in 0.0 to 20.0;
-    /// Yield or rupture stress of reinforcing steel [MPa].
+    /// Yield or rupture stress of reinforcing steel (MPa).
     SteelStrength: MPA in 100.0 to 1500.0;
-    /// Young's modulus of reinforcing steel [MPa].
+    /// Young's modulus of reinforcing steel (MPa).
     SteelModulus: MPA in 50000.0 to 250000.0;
     /// Modulus after yield divided by Young's modulus.
     HardeningRatio: NUMBER in 0.0 to 0.1;
-    /// Young's modulus of a loading plate [MPa].
+    /// Young's modulus of a loading plate (MPa).
     PlateModulus: MPA in 5000.0 to 1000000.0;
-    /// Diameter of a bar [mm].
+    /// Diameter of a bar (mm).
     BarDiameter: MM in 3.0 to 60.0;
-    /// Cross-section of a bar or of one leg of a stirrup [mm2].
+    /// Cross-section of a bar or of one leg of a stirrup (mm2).
     BarArea: MM2 in 5.0 to 3000.0;
-    /// Length of a beam [mm].
+    /// Length of a beam (mm).
     BeamLength: MM in 500.0 to 20000.0;
-    /// Width or height of a section [mm].
+    /// Width or height of a section (mm).
     SectionSize: MM in 50.0 to 2000.0;
-    /// Coordinate in the half model [mm].
+    /// Coordinate in the half model (mm).
     Coordinate: MM in 0.0 to 20000.0;
-    /// Distance between stirrups [mm].
+    /// Distance between stirrups (mm).
     Spacing: MM in 20.0 to 1000.0;
-    /// Length of a plate or stub along the beam [mm].
+    /// Length of a plate or stub along the beam (mm).
     PlateLength: MM in 10.0 to 1000.0;
-    /// Thickness of a plate [mm].
+    /// Thickness of a plate (mm).
     PlateThickness: MM in 1.0 to 200.0;
-    /// Depth of a concrete stub under a beam [mm].
+    /// Depth of a concrete stub under a beam (mm).
     StubDepth: MM in 10.0 to 1000.0;
-    /// Imposed deflection [mm].
+    /// Imposed deflection (mm).
     Deflection: MM in 0.1 to 500.0;
-    /// Load [kN].
+    /// Load (kN).
     Load: KN in 1.0 to 10000.0;
 }

@@ -7,19 +7,20 @@ use serde::{Deserialize, Serialize};
 use super::quantity::{
     BarArea, BarDiameter, Coordinate, HardeningRatio, Spacing, SteelModulus, SteelStrength,
 };
+use super::specimen::Span;
 
-/// Slack when the last stirrup of a zone is compared with its end [mm].
+/// Slack when the last stirrup of a zone is compared with its end (mm).
 const TOLERANCE: f64 = 1e-6;
 
 /// Reinforcing steel.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Steel {
-    /// Yield stress [MPa].
+    /// Yield stress (MPa).
     pub fy_mpa: SteelStrength,
-    /// Rupture stress [MPa].
+    /// Rupture stress (MPa).
     pub fu_mpa: SteelStrength,
-    /// Young's modulus [MPa].
+    /// Young's modulus (MPa).
     pub young_mpa: SteelModulus,
     /// Modulus after yield divided by Young's modulus.
     pub hardening_ratio: HardeningRatio,
@@ -33,9 +34,9 @@ pub struct Steel {
 pub struct Bar {
     /// Name, used in the results.
     pub name: String,
-    /// Diameter [mm].
+    /// Diameter (mm).
     pub diameter_mm: BarDiameter,
-    /// Cross-section of one bar [mm2].
+    /// Cross-section of one bar (mm2).
     pub area_mm2: BarArea,
     /// Number of bars in the half model at this place.
     pub count_in_half: NonZeroU32,
@@ -51,13 +52,13 @@ pub struct Bar {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Axis {
-    /// Height above the soffit [mm].
+    /// Height above the soffit (mm).
     pub y_mm: Coordinate,
-    /// Distance from the symmetry plane [mm].
+    /// Distance from the symmetry plane (mm).
     pub z_mm: Coordinate,
-    /// Left end [mm].
+    /// Left end (mm).
     pub x_from_mm: Coordinate,
-    /// Right end [mm].
+    /// Right end (mm).
     pub x_to_mm: Coordinate,
     /// Source of the values.
     pub source: String,
@@ -67,9 +68,9 @@ pub struct Axis {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stirrups {
-    /// Diameter [mm].
+    /// Diameter (mm).
     pub diameter_mm: BarDiameter,
-    /// Cross-section of one leg [mm2].
+    /// Cross-section of one leg (mm2).
     pub area_mm2: BarArea,
     /// Source of diameter and cross-section.
     pub source: String,
@@ -97,11 +98,11 @@ pub struct StirrupShape {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct VerticalLeg {
-    /// Distance from the symmetry plane [mm].
+    /// Distance from the symmetry plane (mm).
     pub z_mm: Coordinate,
-    /// Lower end [mm].
+    /// Lower end (mm).
     pub y_from_mm: Coordinate,
-    /// Upper end [mm].
+    /// Upper end (mm).
     pub y_to_mm: Coordinate,
 }
 
@@ -109,11 +110,11 @@ pub struct VerticalLeg {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HorizontalLeg {
-    /// Height above the soffit [mm].
+    /// Height above the soffit (mm).
     pub y_mm: Coordinate,
-    /// End next to the symmetry plane [mm].
+    /// End next to the symmetry plane (mm).
     pub z_from_mm: Coordinate,
-    /// End next to the side face [mm].
+    /// End next to the side face (mm).
     pub z_to_mm: Coordinate,
 }
 
@@ -121,9 +122,9 @@ pub struct HorizontalLeg {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Zone {
-    /// Left end [mm].
+    /// Left end (mm).
     pub x_from_mm: Coordinate,
-    /// Right end [mm].
+    /// Right end (mm).
     pub x_to_mm: Coordinate,
     /// Stirrups of the zone; `None` for a zone without.
     pub stirrups: Option<Row>,
@@ -135,14 +136,14 @@ pub struct Zone {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Row {
-    /// Position of the first stirrup [mm].
+    /// Position of the first stirrup (mm).
     pub first_mm: Coordinate,
-    /// Distance between stirrups [mm].
+    /// Distance between stirrups (mm).
     pub spacing_mm: Spacing,
 }
 
 impl Zone {
-    /// Positions of the stirrups of the zone [mm], ascending.
+    /// Positions of the stirrups of the zone (mm), ascending.
     pub fn positions(&self) -> Vec<f64> {
         let Some(row) = &self.stirrups else {
             return Vec::new();
@@ -156,17 +157,29 @@ impl Zone {
 }
 
 impl Stirrups {
-    /// Positions of all stirrups along the beam [mm], ascending.
+    /// Positions of all stirrups along the beam (mm), ascending.
     pub fn positions(&self) -> Vec<f64> {
         self.zones.iter().flat_map(Zone::positions).collect()
     }
 
-    /// Whether `x` [mm] lies in a zone with stirrups; the boundary of two zones belongs to both.
+    /// Whether `x` (mm) lies in a zone with stirrups; the boundary of two zones belongs to both.
     pub fn cover(&self, x: f64) -> bool {
         let holds = |z: &&Zone| z.x_from_mm.get() <= x && x <= z.x_to_mm.get();
         self.zones
             .iter()
             .filter(holds)
             .any(|z| z.stirrups.is_some())
+    }
+
+    /// Distances between the stirrups of the zones that overlap a span (mm).
+    pub fn spacings(&self, span: &Span) -> Vec<f64> {
+        let (from, to) = (span.x_from_mm.get(), span.x_to_mm.get());
+        let overlaps = |z: &&Zone| z.x_from_mm.get() < to && z.x_to_mm.get() > from;
+        let rows = self
+            .zones
+            .iter()
+            .filter(overlaps)
+            .filter_map(|z| z.stirrups.as_ref());
+        rows.map(|row| row.spacing_mm.get()).collect()
     }
 }

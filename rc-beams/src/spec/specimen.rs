@@ -58,11 +58,11 @@ pub enum Series {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Beam {
-    /// Length [mm].
+    /// Length (mm).
     pub length_mm: BeamLength,
-    /// Width of the whole section [mm]; the model holds half of it.
+    /// Width of the whole section (mm); the model holds half of it.
     pub width_mm: SectionSize,
-    /// Height of the section [mm].
+    /// Height of the section (mm).
     pub height_mm: SectionSize,
     /// Source of the values.
     pub source: String,
@@ -72,15 +72,15 @@ pub struct Beam {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Concrete {
-    /// Reported compressive strength [MPa].
+    /// Reported compressive strength (MPa).
     pub reported_strength_mpa: ConcreteStrength,
-    /// Reported tensile strength [MPa].
+    /// Reported tensile strength (MPa).
     pub reported_tensile_mpa: TensileStrength,
-    /// Young's modulus [MPa].
+    /// Young's modulus (MPa).
     pub young_mpa: ConcreteModulus,
     /// Poisson's ratio.
     pub poisson: Poisson,
-    /// Density [kg/m3].
+    /// Density (kg/m3).
     pub density_kg_m3: Density,
     /// Source of the values.
     pub source: String,
@@ -90,7 +90,7 @@ pub struct Concrete {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Gravity {
-    /// Acceleration [m/s2].
+    /// Acceleration (m/s2).
     pub acceleration_m_s2: Acceleration,
     /// Source of the value.
     pub source: String,
@@ -101,7 +101,7 @@ pub struct Gravity {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Support {
-    /// Centre [mm].
+    /// Centre (mm).
     pub x_mm: Coordinate,
     /// Displacements held at zero.
     pub held: Vec<Held>,
@@ -126,11 +126,11 @@ pub enum Held {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plate {
-    /// Length along the beam [mm].
+    /// Length along the beam (mm).
     pub length_mm: PlateLength,
-    /// Thickness [mm].
+    /// Thickness (mm).
     pub thickness_mm: PlateThickness,
-    /// Young's modulus [MPa].
+    /// Young's modulus (MPa).
     pub young_mpa: PlateModulus,
     /// Poisson's ratio.
     pub poisson: Poisson,
@@ -142,9 +142,9 @@ pub struct Plate {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stub {
-    /// Length along the beam [mm].
+    /// Length along the beam (mm).
     pub length_mm: PlateLength,
-    /// Depth below the soffit [mm].
+    /// Depth below the soffit (mm).
     pub depth_mm: StubDepth,
     /// Source of the values.
     pub source: String,
@@ -154,7 +154,7 @@ pub struct Stub {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoadPoint {
-    /// Centre [mm].
+    /// Centre (mm).
     pub x_mm: Coordinate,
     /// Plate.
     pub plate: Plate,
@@ -178,11 +178,11 @@ pub struct Measuring {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Point {
-    /// Along the beam [mm].
+    /// Along the beam (mm).
     pub x_mm: Coordinate,
-    /// Above the soffit [mm].
+    /// Above the soffit (mm).
     pub y_mm: Coordinate,
-    /// From the symmetry plane [mm].
+    /// From the symmetry plane (mm).
     pub z_mm: Coordinate,
     /// Source of the values.
     pub source: String,
@@ -192,9 +192,9 @@ pub struct Point {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Span {
-    /// Left end [mm].
+    /// Left end (mm).
     pub x_from_mm: Coordinate,
-    /// Right end [mm].
+    /// Right end (mm).
     pub x_to_mm: Coordinate,
     /// Source of the values.
     pub source: String,
@@ -206,10 +206,9 @@ pub struct Span {
 pub enum LoadMeasure {
     /// Sum of the vertical reactions of all supports.
     TotalReactions,
-    /// Shear force between a load and the inner support: the load less the reaction of its end support.
+    /// Shear force at an inner support: the load of one span, which is the sum of all reactions shared
+    /// equally by the loads, less the reaction of the end support of that span.
     InnerShear {
-        /// Which load, counted from 0 at the left.
-        load: usize,
         /// Which end support, counted from 0 at the left.
         end_support: usize,
     },
@@ -219,7 +218,7 @@ pub enum LoadMeasure {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Imposed {
-    /// Final value [mm].
+    /// Final value (mm).
     pub deflection_mm: Deflection,
     /// Source of the value.
     pub source: String,
@@ -229,7 +228,7 @@ pub struct Imposed {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Test {
-    /// Largest load, measured as [`Measuring::load`] says [kN].
+    /// Largest load, measured as [`Measuring::load`] says (kN).
     pub load_kn: Load,
     /// Observed mode of failure.
     pub mode: Mode,
@@ -247,15 +246,8 @@ pub enum Mode {
 }
 
 impl Specimen {
-    /// Half of the width, the extent of the model in z [mm].
+    /// Half of the width, the extent of the model in z (mm).
     pub fn half_width_mm(&self) -> f64 {
         0.5 * self.beam.width_mm.get()
-    }
-
-    /// Weight of the whole concrete prism [N].
-    pub fn weight_n(&self) -> f64 {
-        let b = &self.beam;
-        let volume_m3 = b.length_mm.get() * b.width_mm.get() * b.height_mm.get() * 1e-9;
-        volume_m3 * self.concrete.density_kg_m3.get() * self.gravity.acceleration_m_s2.get()
     }
 }

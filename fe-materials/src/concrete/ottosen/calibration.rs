@@ -3,27 +3,27 @@
 use fe_core::material::MaterialError;
 
 use super::Ottosen;
-use crate::concrete::limits::{out_of_range, positive};
+use crate::limits::{out_of_range, positive};
 
 const LAW: &str = "Ottosen surface";
 
 /// The four points that fix the surface; MPa.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Calibration {
-    /// Uniaxial compressive strength fc [MPa], positive.
+    /// Uniaxial compressive strength fc (MPa), positive.
     pub compression: f64,
-    /// Uniaxial tensile strength ft [MPa].
+    /// Uniaxial tensile strength ft (MPa).
     pub tension: f64,
-    /// Equibiaxial compressive strength fb [MPa], positive.
+    /// Equibiaxial compressive strength fb (MPa), positive.
     pub biaxial: f64,
-    /// Octahedral normal stress I1/3 [MPa] of a point on the compressive meridian, negative.
+    /// Octahedral normal stress I1/3 (MPa) of a point on the compressive meridian, negative.
     pub octahedral_normal: f64,
-    /// Octahedral shear stress sqrt(2 J2/3) [MPa] of that point, positive.
+    /// Octahedral shear stress sqrt(2 J2/3) (MPa) of that point, positive.
     pub octahedral_shear: f64,
 }
 
 impl Calibration {
-    /// The points of fib Model Code 2010, 5.1.6.2, for mean strengths fcm and fctm [MPa]:
+    /// The points of fib Model Code 2010, 5.1.6.2, for mean strengths fcm and fctm (MPa):
     /// fb = (1.2 - fcm/1000) fcm, and on the compressive meridian the octahedral stresses -240 and
     /// 185 - 180 q + 260 q^2 - 84 q^3, q = fcm/100 (5.1-14 to 5.1-16).
     pub fn model_code(fcm_mpa: f64, fctm_mpa: f64) -> Self {

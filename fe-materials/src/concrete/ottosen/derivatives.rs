@@ -134,7 +134,34 @@ impl Ottosen {
         )
     }
 
-    /// F [MPa], gradient [-] and Hessian [1/MPa] with respect to three principal stresses.
+    /// Effective stress F (MPa) and its gradient (-) with respect to three principal stresses (MPa), in any
+    /// order; kinks as in [`Ottosen::gradient`].
+    pub fn principal_gradient(&self, stress: &Vector3<f64>) -> (f64, Vector3<f64>) {
+        let q = Invariants::of_principal(stress);
+        let (f, d) = self.first_derivatives(&q);
+        let gradient = q
+            .deviator
+            .map(|s| d.i1 + d.j2 * s + d.j3 * (s * s - 2.0 / 3.0 * q.j2));
+        (f, gradient)
+    }
+
+    /// lambda and its first two derivatives with respect to the Lode angle (rad).
+    pub(crate) fn polar_lambda(&self, angle: f64) -> [f64; 3] {
+        let (sin, cos) = (3.0 * angle).sin_cos();
+        let lambda = self.lambda_derivatives(cos);
+        [
+            lambda.value,
+            -3.0 * sin * lambda.slope,
+            9.0 * (sin * sin * lambda.curvature - cos * lambda.slope),
+        ]
+    }
+
+    /// F and S = 2 F - A (MPa) for given lambda, sqrt(J2) and I1.
+    pub(crate) fn polar_value(&self, lambda: f64, r: f64, i1: f64) -> (f64, f64) {
+        self.solve(lambda * r + self.beta * i1, r * r)
+    }
+
+    /// F (MPa), gradient (-) and Hessian (1/MPa) with respect to three principal stresses.
     ///
     /// The Hessian is that of the smooth surface; where J2 = 0 it is undefined and zero is returned.
     pub fn principal_derivatives(
@@ -143,8 +170,8 @@ impl Ottosen {
     ) -> (f64, Vector3<f64>, Matrix3<f64>) {
         let q = Invariants::of_principal(stress);
         if q.hydrostatic() {
-            let (f, d) = self.first_derivatives(&q);
-            return (f, Vector3::repeat(d.i1), Matrix3::zeros());
+            let (f, gradient) = self.principal_gradient(stress);
+            return (f, gradient, Matrix3::zeros());
         }
         let (r, c) = (q.j2.sqrt(), q.cos3t());
         let lambda = self.lambda_derivatives(c);

@@ -14,7 +14,7 @@ use derivatives::Invariants;
 /// With the invariants I1, J2, J3 and the Lode angle t, cos 3t = (3 sqrt3/2) J3/J2^(3/2), the surface is
 ///
 /// $$ \alpha \frac{J_2}{f_c^2} + \lambda \frac{\sqrt{J_2}}{f_c} + \beta \frac{I_1}{f_c} - 1 = 0,
-/// \qquad \lambda = c_1 \cos\left[\tfrac13 \arccos(c_2 \cos 3t)\right]. $$
+/// \qquad \lambda = c_1 \cos\left(\tfrac13 \arccos(c_2 \cos 3t)\right). $$
 ///
 /// The Code's two branches for lambda (cos 3t of either sign) are identically this one function.
 ///
@@ -41,57 +41,57 @@ pub struct Ottosen {
 }
 
 impl Ottosen {
-    /// Uniaxial compressive strength fc [MPa].
+    /// Uniaxial compressive strength fc (MPa).
     pub const fn strength(&self) -> f64 {
         self.strength
     }
 
-    /// Coefficient alpha of J2 [-].
+    /// Coefficient alpha of J2 (-).
     pub const fn alpha(&self) -> f64 {
         self.alpha
     }
 
-    /// Coefficient beta of I1 [-].
+    /// Coefficient beta of I1 (-).
     pub const fn beta(&self) -> f64 {
         self.beta
     }
 
-    /// lambda on the compressive meridian, t = 60 degrees [-].
+    /// lambda on the compressive meridian, t = 60 degrees (-).
     pub const fn lambda_c(&self) -> f64 {
         self.lambda_c
     }
 
-    /// lambda on the tensile meridian, t = 0 [-].
+    /// lambda on the tensile meridian, t = 0 (-).
     pub const fn lambda_t(&self) -> f64 {
         self.lambda_t
     }
 
-    /// Size c1 of the deviatoric section [-].
+    /// Size c1 of the deviatoric section (-).
     pub const fn c1(&self) -> f64 {
         self.c1
     }
 
-    /// Shape c2 of the deviatoric section [-]: 0 is a circle, 1 a triangle.
+    /// Shape c2 of the deviatoric section (-): 0 is a circle, 1 a triangle.
     pub const fn c2(&self) -> f64 {
         self.c2
     }
 
-    /// lambda at a value of cos 3t in [-1, 1] [-].
+    /// lambda at a value of cos 3t in [-1, 1] (-).
     pub fn lambda(&self, cos3t: f64) -> f64 {
         self.c1 * ((self.c2 * cos3t.clamp(-1.0, 1.0)).acos() / 3.0).cos()
     }
 
-    /// Effective stress F [MPa] of a Voigt stress [MPa]; F = fc on the surface.
+    /// Effective stress F (MPa) of a Voigt stress (MPa); F = fc on the surface.
     pub fn effective_stress(&self, stress: &Vector6<f64>) -> f64 {
         self.value(&Invariants::of_voigt(stress))
     }
 
-    /// Effective stress F [MPa] of three principal stresses [MPa], in any order.
+    /// Effective stress F (MPa) of three principal stresses (MPa), in any order.
     pub fn principal_effective_stress(&self, stress: &Vector3<f64>) -> f64 {
         self.value(&Invariants::of_principal(stress))
     }
 
-    /// Effective stress F [MPa] and its gradient dF/dsigma [-], strain-like Voigt: a shear component is the
+    /// Effective stress F (MPa) and its gradient dF/dsigma (-), strain-like Voigt: a shear component is the
     /// derivative with respect to that one Voigt component, so that dF/dsigma . sigma = F.
     ///
     /// Where J2 = 0, F has a kink at the apex of the tension side, where the axial member beta 1 of the

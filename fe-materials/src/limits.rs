@@ -1,6 +1,7 @@
-//! Range checks of parameters.
+//! Range checks of parameters and strains.
 
 use fe_core::material::MaterialError;
+use nalgebra::SVector;
 
 /// The error of a parameter outside its range.
 pub(crate) fn out_of_range(
@@ -35,4 +36,15 @@ pub(crate) fn positive(
     Err(out_of_range(
         law, parameter, value, unit, "(0, inf)", remedy,
     ))
+}
+
+/// Refuses a strain that is not a number.
+pub(crate) fn finite<const N: usize>(
+    law: &'static str,
+    strain: &SVector<f64, N>,
+) -> Result<(), MaterialError> {
+    match strain.iter().position(|e| !e.is_finite()) {
+        Some(component) => Err(MaterialError::NotFinite { law, component }),
+        None => Ok(()),
+    }
 }

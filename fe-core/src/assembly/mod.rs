@@ -1,5 +1,7 @@
 //! Assembly on a fixed pattern, parallel over elements, bit-identical for any number of threads.
 
+mod scatter;
+
 use rayon::prelude::*;
 
 use crate::element::{ElementError, ElementSystem, EvaluationContext};
@@ -8,11 +10,11 @@ use crate::model::{Conditions, Model, ModelError};
 use crate::sparsity::{MatrixValues, Sparsity};
 use crate::state::StateStore;
 
-/// Marks a constrained DOF in equation lists and a dropped entry in the scatter map.
-const NONE: u32 = u32::MAX;
+use scatter::{NONE, Scatter};
 
-/// Elements evaluated together before their contributions are added in order; bounds the memory.
-const BATCH: usize = 128;
+/// Elements evaluated together before their contributions are added in order. The matrices of a batch of
+/// hexahedra, 1.8 MB, stay in cache.
+const BATCH: usize = 64;
 
 /// Equation numbers, sparsity pattern and scatter map of a model under given constraints.
 ///
@@ -24,8 +26,7 @@ pub struct Assembler {
     free: Vec<u32>,
     element_dofs: Vec<Vec<u32>>,
     pattern: Sparsity,
-    /// For each element, the positions in the value array of the upper triangle by rows.
-    scatter: Vec<Vec<u32>>,
+    scatter: Vec<Scatter>,
     rate: Vec<f64>,
     unsymmetric: bool,
     slots: Vec<Slot>,
@@ -42,9 +43,9 @@ struct Slot {
 /// Result of one evaluation of a model.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Assembled {
-    /// Internal force [N] on all DOFs.
+    /// Internal force (N) on all DOFs.
     pub internal: Vec<f64>,
-    /// Stiffness [N/mm] of the free equations.
+    /// Stiffness (N/mm) of the free equations.
     pub matrix: MatrixValues,
     /// K_fc p: force on the free equations per unit rate of the prescribed pattern.
     pub coupling: Vec<f64>,
@@ -77,7 +78,7 @@ impl Assembler {
         let pattern = Sparsity::from_groups(free.len(), equations.iter().map(Vec::as_slice));
         let scatter = equations
             .par_iter()
-            .map(|eq| scatter_map(&pattern, eq))
+            .map(|eq| Scatter::new(&pattern, eq))
             .collect();
         let unsymmetric = model.elements().iter().any(|e| e.unsymmetric());
         let slots = vec![Slot::default(); BATCH.min(model.elements().len())];
@@ -162,44 +163,39 @@ impl Assembler {
                 .par_iter_mut()
                 .map(|job| {
                     let committed = &base[offsets[job.element]..offsets[job.element + 1]];
-                    job.run(model, &dofs[job.element], u, committed, ctx, unsymmetric)
+                    job.run(model, &dofs[job.element], u, committed, ctx)
                 })
                 .collect();
             for (result, e) in results.into_iter().zip(batch.clone()) {
                 result.map_err(|source| model.locate(e, source))?;
             }
             for (k, e) in batch.enumerate() {
-                self.add(e, k, with_matrix, unsymmetric, out);
+                let dofs = &self.element_dofs[e];
+                for (&d, f) in dofs.iter().zip(&self.slots[k].force) {
+                    out.internal[d as usize] += f;
+                }
+                if with_matrix {
+                    let full = unsymmetric && model.elements()[e].unsymmetric();
+                    self.add_matrix(e, &self.slots[k].stiffness, full, out);
+                }
             }
         }
         Ok(())
     }
 
-    /// Adds the contribution of element `e`, held in slot `k`.
-    fn add(&self, e: usize, k: usize, with_matrix: bool, unsymmetric: bool, out: &mut Assembled) {
-        let dofs = &self.element_dofs[e];
-        let slot = &self.slots[k];
-        for (&d, f) in dofs.iter().zip(&slot.force) {
-            out.internal[d as usize] += f;
-        }
-        if !with_matrix {
-            return;
-        }
-        let n = dofs.len();
-        let mut map = self.scatter[e].iter();
-        for i in 0..n {
-            let row = &slot.stiffness[i * n..(i + 1) * n];
-            for (value, &position) in row[i..].iter().zip(&mut map) {
-                if position != NONE {
-                    // Entry (i, j) of the element is the lower entry if equation i >= equation j;
-                    // for symmetric values the two are the same number.
-                    out.matrix.lower[position as usize] += value;
-                }
+    /// Adds the matrix of element `e`, of which only the upper triangle counts unless it is `full`.
+    fn add_matrix(&self, e: usize, stiffness: &[f64], full: bool, out: &mut Assembled) {
+        let MatrixValues { lower, upper } = &mut out.matrix;
+        if full {
+            self.scatter[e].add_unsymmetric(stiffness, lower, upper);
+        } else {
+            self.scatter[e].add_symmetric(stiffness, lower);
+            if !upper.is_empty() {
+                self.scatter[e].add_symmetric(stiffness, upper);
             }
         }
-        if unsymmetric {
-            self.split_unsymmetric(e, slot, out);
-        }
+        let dofs = &self.element_dofs[e];
+        let n = dofs.len();
         for (j, &dj) in dofs.iter().enumerate() {
             let rate = self.rate[dj as usize];
             if rate == 0.0 {
@@ -208,41 +204,8 @@ impl Assembler {
             for (i, &di) in dofs.iter().enumerate() {
                 let row = self.equation[di as usize];
                 if row != NONE {
-                    let (a, b) = if unsymmetric || i <= j {
-                        (i, j)
-                    } else {
-                        (j, i)
-                    };
-                    out.coupling[row as usize] += slot.stiffness[a * n + b] * rate;
-                }
-            }
-        }
-    }
-
-    /// Corrects `lower`, which has received the upper triangle of the element, for an unsymmetric
-    /// element matrix, and fills `upper`.
-    fn split_unsymmetric(&self, e: usize, slot: &Slot, out: &mut Assembled) {
-        let dofs = &self.element_dofs[e];
-        let n = dofs.len();
-        let mut map = self.scatter[e].iter();
-        for i in 0..n {
-            for j in i..n {
-                let Some(&position) = map.next() else { return };
-                if position == NONE {
-                    continue;
-                }
-                let (ij, ji) = (slot.stiffness[i * n + j], slot.stiffness[j * n + i]);
-                let (row, col) = (
-                    self.equation[dofs[i] as usize],
-                    self.equation[dofs[j] as usize],
-                );
-                let p = position as usize;
-                if row < col {
-                    // (i, j) lies above the diagonal of the system.
-                    out.matrix.lower[p] += ji - ij;
-                    out.matrix.upper[p] += ij;
-                } else {
-                    out.matrix.upper[p] += ji;
+                    let (a, b) = if full || i <= j { (i, j) } else { (j, i) };
+                    out.coupling[row as usize] += stiffness[a * n + b] * rate;
                 }
             }
         }
@@ -264,7 +227,6 @@ impl Job<'_> {
         u: &[f64],
         committed: &[f64],
         ctx: &EvaluationContext,
-        mirrored: bool,
     ) -> Result<(), ElementError> {
         let with_matrix = ctx.operator != Operator::None;
         let Slot {
@@ -287,21 +249,7 @@ impl Job<'_> {
             force,
             stiffness: matrix,
         };
-        let element = &model.elements()[self.element];
-        element.evaluate(local, committed, self.trial, ctx, out)?;
-        if mirrored && !element.unsymmetric() {
-            mirror(stiffness, dofs.len());
-        }
-        Ok(())
-    }
-}
-
-/// Copies the upper triangle to the lower one.
-fn mirror(a: &mut [f64], n: usize) {
-    for i in 0..n {
-        for j in i + 1..n {
-            a[j * n + i] = a[i * n + j];
-        }
+        model.elements()[self.element].evaluate(local, committed, self.trial, ctx, out)
     }
 }
 
@@ -309,25 +257,4 @@ fn mirror(a: &mut [f64], n: usize) {
 fn reset(buffer: &mut Vec<f64>, n: usize) {
     buffer.clear();
     buffer.resize(n, 0.0);
-}
-
-/// Position in the value array of each entry of the upper triangle of an element, by rows.
-fn scatter_map(pattern: &Sparsity, equations: &[u32]) -> Vec<u32> {
-    let n = equations.len();
-    let mut map = Vec::with_capacity(n * (n + 1) / 2);
-    for i in 0..n {
-        for j in i..n {
-            let (a, b) = (
-                equations[i].max(equations[j]),
-                equations[i].min(equations[j]),
-            );
-            let position = if a == NONE {
-                None
-            } else {
-                pattern.position(a as usize, b as usize)
-            };
-            map.push(position.map_or(NONE, |p| p as u32));
-        }
-    }
-    map
 }

@@ -1,0 +1,23 @@
+//! What can go wrong when results are written.
+
+use std::io;
+use std::path::PathBuf;
+
+use crate::model::ModelError;
+
+/// Why results could not be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum OutputError {
+    /// The file system refused.
+    #[error("cannot write {}: {source}; check that the folder exists, is writable and has room", path.display())]
+    Io {
+        /// File that was to be written.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// An element could not be evaluated.
+    #[error("cannot sample the results: {0}")]
+    Model(#[from] ModelError),
+}

@@ -1,0 +1,56 @@
+//! Files that ParaView and other readers of VTK formats open.
+//!
+//! A [`FieldSeries`] writes the fields of a model step by step: one `.vtu` of cells, one of bars, and a
+//! `.pvd` collection that ties them to a time. Every file is written beside its final place and then
+//! renamed, so that a run killed at any moment leaves complete files and a readable collection.
+
+mod bars;
+mod cells;
+mod error;
+mod pvd;
+mod series;
+mod vtu;
+
+pub use bars::bar_grid;
+pub use cells::cell_grid;
+pub use error::OutputError;
+pub use pvd::Pvd;
+pub use series::FieldSeries;
+pub use vtu::{DataArray, UnstructuredGrid};
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use crate::dof::Dof;
+use crate::mesh::NodeId;
+use crate::model::Model;
+
+/// Writes a file under a temporary name in the same folder, then renames it.
+fn write_atomically(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), OutputError> {
+    let mut temporary = path.as_os_str().to_owned();
+    temporary.push(".part");
+    let result = File::create(&temporary)
+        .and_then(|file| {
+            let mut out = BufWriter::new(file);
+            write(&mut out)?;
+            out.flush()
+        })
+        .and_then(|()| fs::rename(&temporary, path));
+    result.map_err(|source| {
+        // What is left of a failed attempt is of no use; the first error is the one to report.
+        let _ = fs::remove_file(&temporary);
+        OutputError::Io {
+            path: path.into(),
+            source,
+        }
+    })
+}
+
+/// Displacement (mm) of a node; zero where no element uses the DOF.
+fn nodal_displacement(model: &Model, u: &[f64], node: NodeId) -> [f64; 3] {
+    Dof::DISPLACEMENTS.map(|dof| model.dofs().index(node, dof).map_or(0.0, |i| u[i]))
+}

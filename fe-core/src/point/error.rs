@@ -1,0 +1,73 @@
+//! What can go wrong at a single point.
+
+use crate::material::MaterialError;
+
+/// Why a program could not be finished; segments and steps are counted from 1.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PointError {
+    /// The law refuses the point itself.
+    #[error("the point cannot be served: {0}")]
+    Refused(MaterialError),
+    /// A segment has the wrong number of components.
+    #[error(
+        "segment {segment} prescribes {given} components, but the law has {expected}: {labels}; give one \
+         strain or stress for each"
+    )]
+    Components {
+        /// Segment.
+        segment: usize,
+        /// Components given.
+        given: usize,
+        /// Components of the law.
+        expected: usize,
+        /// Their names.
+        labels: String,
+    },
+    /// A segment has no steps.
+    #[error("segment {segment} has steps = 0, outside [1, inf); give at least one step")]
+    NoSteps {
+        /// Segment.
+        segment: usize,
+    },
+    /// A target is NaN or infinite.
+    #[error("segment {segment}: the target of {component} is {value}, not a finite number")]
+    NotFinite {
+        /// Segment.
+        segment: usize,
+        /// Component.
+        component: &'static str,
+        /// Value given.
+        value: f64,
+    },
+    /// The law could not answer.
+    #[error("segment {segment}, step {step}: {source}")]
+    Material {
+        /// Segment.
+        segment: usize,
+        /// Step.
+        step: usize,
+        /// What the law said.
+        source: MaterialError,
+    },
+    /// The prescribed stress was not reached, even in the shortest sub-step.
+    #[error(
+        "segment {segment}, step {step}: {component} misses its prescribed value by {residual:.4e} MPa \
+         (allowed {tolerance:.1e} MPa) after {iterations} iterations; past a peak, prescribe the strain \
+         of this component instead"
+    )]
+    NoConvergence {
+        /// Segment.
+        segment: usize,
+        /// Step.
+        step: usize,
+        /// Stress component with the largest residual.
+        component: &'static str,
+        /// Its residual (MPa).
+        residual: f64,
+        /// Residual allowed (MPa).
+        tolerance: f64,
+        /// Iterations of the last attempt.
+        iterations: usize,
+    },
+}

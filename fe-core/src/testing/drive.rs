@@ -1,0 +1,197 @@
+//! One random path of an element, with every demand made on a step.
+
+use super::difference::{Differences, Verdict, norm, ratio};
+use super::failure::{CheckFailure, Place, equal, finite};
+use super::rigid::Motion;
+use super::settings::ElementCheck;
+use crate::element::{Element, ElementSystem, EvaluationContext};
+use crate::material::Operator;
+
+/// An element on one path.
+#[derive(Debug)]
+pub(super) struct Drive<'a> {
+    element: &'a dyn Element,
+    check: &'a ElementCheck,
+    pub(super) place: Place,
+    pub(super) base: Vec<f64>,
+    /// Norm of the stiffness of the virgin state.
+    stiffness: f64,
+    n: usize,
+}
+
+/// Force, full stiffness and new state.
+#[derive(Debug)]
+pub(super) struct Answer {
+    force: Vec<f64>,
+    stiffness: Vec<f64>,
+    pub(super) state: Vec<f64>,
+}
+
+impl<'a> Drive<'a> {
+    pub(super) fn start(
+        element: &'a dyn Element,
+        check: &'a ElementCheck,
+        path: usize,
+        n: usize,
+    ) -> Result<Self, CheckFailure> {
+        let mut drive = Self {
+            element,
+            check,
+            place: Place { path, step: 0 },
+            base: vec![f64::NAN; element.state_len()],
+            stiffness: 0.0,
+            n,
+        };
+        element.init_state(&mut drive.base);
+        finite(drive.place, &drive.base, state_label)?;
+        let virgin = drive.evaluate(&vec![0.0; n], Operator::Tangent, f64::NAN)?;
+        drive.stiffness = norm(&virgin.stiffness);
+        Ok(drive)
+    }
+
+    /// One evaluation; `trial` holds `junk` before.
+    fn evaluate(&self, u: &[f64], operator: Operator, junk: f64) -> Result<Answer, CheckFailure> {
+        let n = self.n;
+        let entries = if operator == Operator::None { 0 } else { n * n };
+        let mut answer = Answer {
+            force: vec![0.0; n],
+            stiffness: vec![0.0; entries],
+            state: vec![junk; self.base.len()],
+        };
+        let ctx = EvaluationContext {
+            operator,
+            relaxation: self.check.relaxation,
+        };
+        let out = ElementSystem {
+            force: &mut answer.force,
+            stiffness: &mut answer.stiffness,
+        };
+        self.element
+            .evaluate(u, &self.base, &mut answer.state, &ctx, out)
+            .map_err(|source| CheckFailure::element(self.place, source))?;
+        if !answer.stiffness.is_empty() && !self.element.unsymmetric() {
+            for i in 0..n {
+                for j in i + 1..n {
+                    answer.stiffness[j * n + i] = answer.stiffness[i * n + j];
+                }
+            }
+        }
+        Ok(answer)
+    }
+
+    /// Takes what the step latches into the base state.
+    pub(super) fn latch(&mut self, answer: &Answer) {
+        self.element.latch(&answer.state, &mut self.base);
+    }
+
+    /// Largest force of a motion of the virgin element, relative to stiffness times displacement.
+    pub(super) fn rigid(&self, motion: &Motion) -> Result<f64, CheckFailure> {
+        let largest = motion.values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let scale = self.check.amplitude[0] / largest;
+        let u: Vec<f64> = motion.values.iter().map(|v| scale * v).collect();
+        let force = self.evaluate(&u, Operator::None, f64::NAN)?.force;
+        let unit = self.stiffness * self.check.amplitude[0];
+        let limit = self.check.rigid_tolerance * unit;
+        let mut worst = 0.0_f64;
+        for (i, &f) in force.iter().enumerate() {
+            if f.is_nan() || f.abs() > limit {
+                return Err(CheckFailure::RigidBody {
+                    motion: motion.name,
+                    component: self.label(i),
+                    force: f,
+                    limit,
+                });
+            }
+            worst = worst.max(ratio(f.abs(), unit));
+        }
+        Ok(worst)
+    }
+
+    /// The answer with the stiffness: finite, and the same again with other junk and forces only.
+    pub(super) fn repeatable(&self, u: &[f64], junk: f64) -> Result<Answer, CheckFailure> {
+        let force_label = |i| format!("force {}", self.label(i));
+        let stiffness_label = |k| format!("stiffness ({}, {})", k / self.n, k % self.n);
+        let first = self.evaluate(u, Operator::Tangent, f64::NAN)?;
+        finite(self.place, &first.state, state_label)?;
+        finite(self.place, &first.force, force_label)?;
+        finite(self.place, &first.stiffness, stiffness_label)?;
+        let second = self.evaluate(u, Operator::Tangent, junk)?;
+        let between = "with other numbers in the trial state before the evaluation";
+        equal(
+            self.place,
+            &first.stiffness,
+            &second.stiffness,
+            between,
+            stiffness_label,
+        )?;
+        let without = self.evaluate(u, Operator::None, f64::NAN)?;
+        for (other, between) in [
+            (second, between),
+            (without, "asked for without a stiffness"),
+        ] {
+            equal(self.place, &first.force, &other.force, between, force_label)?;
+            equal(self.place, &first.state, &other.state, between, state_label)?;
+        }
+        Ok(first)
+    }
+
+    /// Resultant of the nodal forces conjugate to a motion, relative to the sum of its terms.
+    pub(super) fn balance(&self, motion: &Motion, answer: &Answer) -> Result<f64, CheckFailure> {
+        let terms = answer.force.iter().zip(&motion.values).map(|(f, m)| f * m);
+        let scale: f64 = terms.clone().map(f64::abs).sum();
+        let value: f64 = terms.sum();
+        let limit = self.check.balance_tolerance * scale;
+        if value.abs() > limit {
+            return Err(CheckFailure::Unbalanced {
+                place: self.place,
+                resultant: motion.resultant,
+                value,
+                limit,
+            });
+        }
+        Ok(ratio(value.abs(), scale))
+    }
+
+    /// Worst relative disagreement of the stiffness; `None` at a kink.
+    pub(super) fn tangent(
+        &self,
+        u: &[f64],
+        answer: &Answer,
+        differences: &mut Differences,
+    ) -> Result<Option<f64>, CheckFailure> {
+        let scale = self.stiffness.max(norm(&answer.stiffness));
+        let limit = self.check.tangent_tolerance * scale;
+        let verdict = differences.compare(
+            u,
+            &answer.force,
+            limit,
+            |i, j| answer.stiffness[i * self.n + j],
+            |x, out| {
+                out.copy_from_slice(&self.evaluate(x, Operator::None, f64::NAN)?.force);
+                Ok(())
+            },
+        )?;
+        match verdict {
+            Verdict::Agrees(worst) => Ok(Some(ratio(worst, scale))),
+            Verdict::Kink => Ok(None),
+            Verdict::Wrong(d) => Err(CheckFailure::Tangent {
+                place: self.place,
+                row: format!("force {}", self.label(d.row)),
+                column: self.label(d.column),
+                given: d.given,
+                difference: d.difference,
+                limit,
+            }),
+        }
+    }
+
+    /// DOF and node of a component.
+    fn label(&self, i: usize) -> String {
+        let dofs = self.element.dofs();
+        format!("{} of node {}", dofs[i % dofs.len()], i / dofs.len())
+    }
+}
+
+fn state_label(i: usize) -> String {
+    format!("state variable {i}")
+}

@@ -1,0 +1,56 @@
+//! Conformance checks for everybody who writes a law or an element.
+//!
+//! [`check_material`], [`check_isotropy`] and [`check_element`] drive random but reproducible paths and
+//! hold the answers against the contracts of [`Material`](crate::material::Material) and
+//! [`Element`](crate::element::Element). They need no test framework: call them in a `#[test]` and unwrap.
+//!
+//! ```
+//! # use fe_core::kinematics::Axial;
+//! # use fe_core::material::{Material, MaterialError, PointContext, Response, StateVar};
+//! # use nalgebra::{Matrix1, Vector1};
+//! use fe_core::testing::{MaterialCheck, check_material};
+//!
+//! #[derive(Debug)]
+//! struct Spring(f64);
+//!
+//! impl Material<Axial> for Spring {
+//!     fn name(&self) -> &'static str {
+//!         "spring"
+//!     }
+//!     fn state_vars(&self) -> &[StateVar] {
+//!         &[]
+//!     }
+//!     fn update(
+//!         &self,
+//!         strain: &Vector1<f64>,
+//!         _committed: &[f64],
+//!         _trial: &mut [f64],
+//!         _ctx: &PointContext,
+//!     ) -> Result<Response<Axial>, MaterialError> {
+//!         Ok(Response { stress: self.0 * strain, tangent: Matrix1::new(self.0) })
+//!     }
+//! }
+//!
+//! let report = check_material(&Spring(200e3), &MaterialCheck::new(1e-3))?;
+//! assert!(report.worst_tangent < 1e-9);
+//! # Ok::<(), fe_core::testing::CheckFailure>(())
+//! ```
+
+mod difference;
+mod drive;
+mod element;
+mod failure;
+mod isotropy;
+mod material;
+mod path;
+mod random;
+mod rigid;
+
+mod settings;
+mod walk;
+
+pub use element::check_element;
+pub use failure::{CheckFailure, Place};
+pub use isotropy::{IsotropyReport, check_isotropy};
+pub use material::check_material;
+pub use settings::{ElementCheck, ElementReport, MaterialCheck, MaterialReport};

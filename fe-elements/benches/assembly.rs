@@ -1,0 +1,144 @@
+//! Time to assemble a beam of 60 x 4 x 1 hexahedra (2 x 2 x 2 points) on one thread, with a law whose
+//! tangent is a constant: what elements and assembly cost without the law.
+
+use std::hint::black_box;
+use std::sync::Arc;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use fe_core::assembly::{Assembled, Assembler};
+use fe_core::dof::Dof;
+use fe_core::element::{Element, EvaluationContext};
+use fe_core::grid::GridBuilder;
+use fe_core::kinematics::Solid;
+use fe_core::material::{Material, MaterialError, Operator, PointContext, Response, StateVar};
+use fe_core::model::{Conditions, Model};
+use fe_core::state::StateStore;
+use fe_core::voigt::isotropic;
+use fe_elements::{BandWidth, Hex20, HexRule};
+use nalgebra::{Matrix6, Vector6};
+
+/// sigma = D e, with as many state variables as a concrete law has.
+#[derive(Debug)]
+struct Linear {
+    tangent: Matrix6<f64>,
+    unsymmetric: bool,
+}
+
+const STATE: [StateVar; 1] = [StateVar::vector("history", "-", 18)];
+
+impl Material<Solid> for Linear {
+    fn name(&self) -> &'static str {
+        "linear"
+    }
+
+    fn state_vars(&self) -> &[StateVar] {
+        &STATE
+    }
+
+    fn update(
+        &self,
+        strain: &Vector6<f64>,
+        committed: &[f64],
+        trial: &mut [f64],
+        _ctx: &PointContext,
+    ) -> Result<Response<Solid>, MaterialError> {
+        trial.copy_from_slice(committed);
+        Ok(Response {
+            stress: self.tangent * strain,
+            tangent: self.tangent,
+        })
+    }
+
+    fn unsymmetric_tangent(&self) -> bool {
+        self.unsymmetric
+    }
+}
+
+/// Lines of `n` equal cells of `length` mm.
+fn lines(n: u32, length: f64) -> Vec<f64> {
+    (0..=n)
+        .map(|i| length * f64::from(i) / f64::from(n))
+        .collect()
+}
+
+fn beam(unsymmetric: bool) -> Model {
+    let mut grid = GridBuilder::new();
+    grid.add_box(
+        "beam",
+        &lines(60, 3000.0),
+        &lines(4, 300.0),
+        &lines(1, 75.0),
+    );
+    let mesh = grid.finish().expect("a valid mesh");
+    let law = Arc::new(Linear {
+        tangent: isotropic(30000.0, 0.2),
+        unsymmetric,
+    });
+    let elements = mesh.blocks()[0]
+        .cells()
+        .map(|cell| {
+            let nodes: [usize; 20] = cell.try_into().expect("20 nodes");
+            let coords = nodes.map(|n| mesh.nodes()[n]);
+            let law = Arc::clone(&law);
+            let hex = Hex20::new(nodes, &coords, HexRule::Reduced, law, BandWidth::CubeRoot);
+            Box::new(hex.expect("a valid cell")) as Box<dyn Element>
+        })
+        .collect();
+    Model::new(mesh, elements)
+}
+
+/// Clamped at one end, pushed down at the other.
+fn conditions(model: &Model) -> Conditions {
+    let mut conditions = Conditions::new(model);
+    for (node, x) in model.mesh().nodes().iter().enumerate() {
+        for dof in Dof::DISPLACEMENTS {
+            if x[0] == 0.0 {
+                conditions.fix(model, node, dof).expect("a DOF of the beam");
+            }
+        }
+        if x[0] == 3000.0 {
+            conditions
+                .prescribe(model, node, Dof::Uy, -1.0)
+                .expect("a DOF of the beam");
+        }
+    }
+    conditions
+}
+
+fn assembly(c: &mut Criterion) {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("a pool of one thread");
+    let mut group = c.benchmark_group("beam of 60 x 4 x 1 hex20");
+    for (what, operator, unsymmetric) in [
+        ("symmetric stiffness", Operator::Tangent, false),
+        ("unsymmetric stiffness", Operator::Tangent, true),
+        ("force only", Operator::None, false),
+    ] {
+        let model = beam(unsymmetric);
+        let mut assembler = Assembler::new(&model, &conditions(&model));
+        let mut state = StateStore::new(model.elements());
+        let mut out = Assembled::default();
+        let u: Vec<f64> = (0..model.dofs().len())
+            .map(|i| 1e-3 * (i as f64).sin())
+            .collect();
+        let ctx = EvaluationContext::new(operator);
+        group.bench_function(what, |b| {
+            b.iter(|| {
+                pool.install(|| {
+                    assembler.evaluate(&model, black_box(&u), &mut state, &ctx, &mut out)
+                })
+            });
+        });
+    }
+    let model = beam(false);
+    let conditions = conditions(&model);
+    group.bench_function("pattern and scatter map", |b| {
+        b.iter(|| pool.install(|| Assembler::new(&model, &conditions)));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, assembly);
+criterion_main!(benches);

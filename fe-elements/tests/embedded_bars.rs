@@ -1,0 +1,245 @@
+//! Protects the cutting of embedded bars: whatever the mesh and the polyline, every stretch of a bar lies in
+//! exactly one host, so that the pieces add up to the bar; a bar that leaves the mesh is named with the
+//! place. Targets: geometry (length of the polyline).
+
+use std::sync::Arc;
+
+use fe_core::element::{Element, ElementError};
+use fe_core::grid::GridBuilder;
+use fe_core::kinematics::Axial;
+use fe_core::material::{Material, MaterialError, PointContext, Response, StateVar};
+use fe_core::mesh::{CellKind, Mesh};
+use fe_core::shape::hex20;
+use fe_elements::{Bar, EmbeddedBar, embed};
+use nalgebra::{Vector1, Vector3};
+use proptest::prelude::*;
+
+/// sigma = E e with E = 1 MPa.
+#[derive(Debug)]
+struct Spring;
+
+impl Material<Axial> for Spring {
+    fn name(&self) -> &'static str {
+        "spring"
+    }
+
+    fn state_vars(&self) -> &[StateVar] {
+        &[]
+    }
+
+    fn update(
+        &self,
+        strain: &Vector1<f64>,
+        _committed: &[f64],
+        _trial: &mut [f64],
+        _ctx: &PointContext,
+    ) -> Result<Response<Axial>, MaterialError> {
+        Ok(Response {
+            stress: *strain,
+            tangent: nalgebra::Matrix1::new(1.0),
+        })
+    }
+}
+
+fn bar(polyline: Vec<[f64; 3]>) -> Bar {
+    Bar {
+        name: "b".into(),
+        polyline,
+        area_mm2: 1.0,
+        law: Arc::new(Spring),
+        dowel: None,
+    }
+}
+
+const LINES: [f64; 4] = [0.0, 30.0, 50.0, 90.0];
+
+/// 27 cells over a cube of 90 mm; nodes off the faces of the cube moved by `amplitude` mm, so that inner
+/// faces are warped and curved.
+fn block(amplitude: f64, seed: u64) -> Mesh {
+    let mut grid = GridBuilder::new();
+    grid.add_box("block", &LINES, &LINES, &LINES);
+    let straight = grid.finish().unwrap();
+    let mut state = seed;
+    let mut random = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        2.0 * (state >> 11) as f64 / (1u64 << 53) as f64 - 1.0
+    };
+    let nodes = straight.nodes().iter().map(|&x| {
+        let inner = x.iter().all(|&c| c > 0.0 && c < 90.0);
+        x.map(|c| c + if inner { amplitude * random() } else { 0.0 })
+    });
+    let mut mesh = Mesh::new(nodes.collect()).unwrap();
+    let cells = straight.blocks()[0].cells().flatten().copied().collect();
+    mesh.add_block("block", CellKind::Hex20, cells).unwrap();
+    mesh
+}
+
+/// Sum of the pieces, after a check that each lies inside its host.
+fn embedded_length(mesh: &Mesh, elements: &[EmbeddedBar]) -> f64 {
+    let mut total = 0.0;
+    for element in elements {
+        let coords = std::array::from_fn(|a| mesh.nodes()[element.nodes()[a]]);
+        let visit = &mut |ends: [[f64; 3]; 2], _| {
+            let [a, b] = ends.map(Vector3::from);
+            for end in [a, b, a.lerp(&b, 0.5)] {
+                let xi = hex20::inverse_map(&coords, end.into()).unwrap();
+                assert!(xi.iter().all(|c| c.abs() < 1.0 + 1e-7), "{end:?}: {xi:?}");
+            }
+        };
+        element.segments(&[0.0; 60], &[], visit).unwrap();
+        total += element.length();
+    }
+    total
+}
+
+/// Coordinates on grid lines and in between, so that corners fall on faces, edges and nodes.
+fn coordinate() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        prop::sample::select(LINES.to_vec()),
+        0.0..90.0_f64,
+        (0..9_u8).prop_map(|i| 10.0 * f64::from(i)),
+    ]
+}
+
+fn point() -> impl Strategy<Value = [f64; 3]> {
+    [coordinate(), coordinate(), coordinate()]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(3000))]
+
+    /// Boxes: bars along faces and edges, through corners, with corners on faces.
+    #[test]
+    fn pieces_add_up_in_boxes(polyline in prop::collection::vec(point(), 2..5)) {
+        let mesh = block(0.0, 0);
+        let bar = bar(polyline);
+        prop_assume!(bar.length_mm() > 0.0);
+        let elements = embed(std::slice::from_ref(&bar), &mesh, &["block"]).unwrap();
+        let length = embedded_length(&mesh, &elements);
+        prop_assert!((length - bar.length_mm()).abs() < 1e-12 * length.max(90.0));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    /// Cells with warped and curved faces.
+    #[test]
+    fn pieces_add_up_in_distorted_cells(
+        polyline in prop::collection::vec(point(), 2..4),
+        seed in any::<u64>(),
+    ) {
+        let mesh = block(1.5, seed);
+        let bar = bar(polyline);
+        prop_assume!(bar.length_mm() > 0.0);
+        let elements = embed(std::slice::from_ref(&bar), &mesh, &["block"]).unwrap();
+        let length = embedded_length(&mesh, &elements);
+        prop_assert!((length - bar.length_mm()).abs() < 1e-12 * length.max(90.0));
+    }
+}
+
+/// A long bar in short distorted cells: every cell it crosses is found.
+#[test]
+fn a_long_bar_finds_every_short_cell() {
+    let cells = 400;
+    let x: Vec<f64> = (0..=cells).map(f64::from).collect();
+    let mut grid = GridBuilder::new();
+    grid.add_box("rod", &x, &[0.0, 1.0], &[0.0, 1.0]);
+    let straight = grid.finish().unwrap();
+    // Inner faces bulge along the axis, the end faces stay plane.
+    let wave = |x: f64| (std::f64::consts::PI * 127.0 * x / f64::from(cells)).sin();
+    let bulge = |[x, y, z]: [f64; 3]| [x + 0.4 * y * (1.0 - y) * wave(x), y, z];
+    let mut mesh = Mesh::new(straight.nodes().iter().copied().map(bulge).collect()).unwrap();
+    let cells_of = straight.blocks()[0].cells().flatten().copied().collect();
+    mesh.add_block("rod", CellKind::Hex20, cells_of).unwrap();
+    let ends = vec![[0.0, 0.2, 0.3], [f64::from(cells), 0.7, 0.6]];
+    let elements = embed(&[bar(ends)], &mesh, &["rod"]).unwrap();
+    assert_eq!(elements.len(), cells as usize);
+}
+
+/// The first point without a host is named: the start, or the place where the bar leaves.
+#[test]
+fn a_bar_that_leaves_the_mesh_is_named_with_the_place() {
+    for amplitude in [0.0, 1.5] {
+        let mesh = block(amplitude, 1);
+        for (polyline, place) in [
+            (
+                vec![[10.0, 10.0, 10.0], [130.0, 40.0, 10.0]],
+                [90.0, 30.0, 10.0],
+            ),
+            (
+                vec![[-5.0, 10.0, 10.0], [40.0, 10.0, 10.0]],
+                [-5.0, 10.0, 10.0],
+            ),
+            (
+                vec![[10.0, 10.0, 10.0], [90.0, 10.0, 10.0], [90.0, 10.0, 95.0]],
+                [90.0, 10.0, 90.0],
+            ),
+        ] {
+            match embed(&[bar(polyline)], &mesh, &["block"]) {
+                Err(ElementError::NoHost { bar, x, y, z }) => {
+                    assert_eq!(bar, "b");
+                    let miss = Vector3::new(x, y, z) - Vector3::from(place);
+                    assert!(miss.norm() < 1e-6, "{miss:?}");
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+}
+
+/// Bars find hosts in the named blocks only, and pass from one to the next.
+#[test]
+fn bars_are_hosted_by_the_named_blocks() {
+    let mut grid = GridBuilder::new();
+    grid.add_box("left", &[0.0, 10.0], &[0.0, 10.0], &[0.0, 10.0]);
+    grid.add_box("right", &[10.0, 20.0], &[0.0, 10.0], &[0.0, 10.0]);
+    let mesh = grid.finish().unwrap();
+    let through = || bar(vec![[0.0, 5.0, 5.0], [20.0, 5.0, 5.0]]);
+    assert_eq!(
+        embed(&[through()], &mesh, &["left", "right"])
+            .unwrap()
+            .len(),
+        2
+    );
+    let alone = embed(&[through()], &mesh, &["left"]);
+    assert!(matches!(alone, Err(ElementError::NoHost { x, .. }) if (x - 10.0).abs() < 1e-6));
+    let unknown = embed(&[through()], &mesh, &["middle"]);
+    let message = unknown.unwrap_err().to_string();
+    assert!(
+        message.contains("middle") && message.contains("left, right"),
+        "{message}"
+    );
+}
+
+/// Impossible bars are refused with the quantity and the remedy.
+#[test]
+fn impossible_bars_are_refused() {
+    let mesh = block(0.0, 0);
+    let sound = || bar(vec![[10.0; 3], [80.0; 3]]);
+    let cases = [
+        (
+            Bar {
+                area_mm2: -1.0,
+                ..sound()
+            },
+            "area_mm2 = -1",
+        ),
+        (
+            Bar {
+                area_mm2: f64::NAN,
+                ..sound()
+            },
+            "area_mm2 = NaN",
+        ),
+        (bar(vec![[10.0; 3]]), "number of points = 1"),
+        (bar(vec![[10.0; 3], [10.0; 3]]), "length_mm = 0"),
+        (bar(vec![[10.0; 3], [f64::INFINITY; 3]]), "coordinate = inf"),
+    ];
+    for (case, expected) in cases {
+        let message = embed(&[case], &mesh, &["block"]).unwrap_err().to_string();
+        assert!(message.contains(expected), "{message}");
+    }
+}

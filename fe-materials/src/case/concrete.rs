@@ -1,0 +1,58 @@
+//! Concrete of a case.
+
+use serde::Deserialize;
+
+use super::CaseError;
+use crate::concrete::ConcreteScalars;
+
+/// A concrete by its cylinder strength, from which [`ConcreteScalars`] follow; a property that is given
+/// replaces the derived one. Exactly one of the two strengths.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ConcreteCase {
+    /// Characteristic strength fck (MPa).
+    pub fck_mpa: Option<f64>,
+    /// Mean strength fcm (MPa).
+    pub fcm_mpa: Option<f64>,
+    /// Mean tensile strength (MPa).
+    pub fctm_mpa: Option<f64>,
+    /// Young's modulus (MPa).
+    pub young_mpa: Option<f64>,
+    /// Poisson's ratio (-).
+    pub poisson: Option<f64>,
+    /// Strain at the compressive strength, positive (-).
+    pub eps_c1: Option<f64>,
+    /// Strain at which the compression curve ends, positive (-).
+    pub eps_c_lim: Option<f64>,
+    /// Fracture energy (N/mm).
+    pub fracture_energy_n_per_mm: Option<f64>,
+}
+
+impl ConcreteCase {
+    /// The properties.
+    ///
+    /// # Errors
+    ///
+    /// [`CaseError::Strength`], or [`CaseError::Law`] for a strength outside the tables.
+    pub fn build(&self) -> Result<ConcreteScalars, CaseError> {
+        let derived = match (self.fck_mpa, self.fcm_mpa) {
+            (Some(fck), None) => ConcreteScalars::from_characteristic(fck)?,
+            (None, Some(fcm)) => ConcreteScalars::from_mean(fcm)?,
+            (fck, _) => {
+                let given = if fck.is_some() { 2 } else { 0 };
+                return Err(CaseError::Strength { given });
+            }
+        };
+        Ok(ConcreteScalars {
+            fcm_mpa: derived.fcm_mpa,
+            fctm_mpa: self.fctm_mpa.unwrap_or(derived.fctm_mpa),
+            young_mpa: self.young_mpa.unwrap_or(derived.young_mpa),
+            poisson: self.poisson.unwrap_or(derived.poisson),
+            eps_c1: self.eps_c1.unwrap_or(derived.eps_c1),
+            eps_c_lim: self.eps_c_lim.unwrap_or(derived.eps_c_lim),
+            fracture_energy: self
+                .fracture_energy_n_per_mm
+                .unwrap_or(derived.fracture_energy),
+        })
+    }
+}

@@ -1,0 +1,100 @@
+//! Which law serves which block.
+
+use std::sync::Arc;
+
+use fe_core::kinematics::Solid;
+use fe_core::material::{Material, MaterialError};
+use fe_core::mesh::Mesh;
+use fe_materials::Elastic;
+use fe_materials::concrete::{
+    Calibration, ConcreteScalars, Ottosen, Reference, ReferenceParameters, TensionStiffening,
+};
+use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
+
+use super::mesh::{concrete_block, load_plate, support_plate};
+use super::{ConcreteLaw, ModelSettings, Preset};
+use crate::spec::Specimen;
+
+/// A law shared by the elements of a block.
+pub(super) type SolidLaw = Arc<dyn Material<Solid>>;
+
+/// Law of every block of concrete that the mesh has.
+pub(super) fn concrete_laws(
+    specimen: &Specimen,
+    settings: &ModelSettings,
+    mesh: &Mesh,
+) -> Result<Vec<(&'static str, SolidLaw)>, MaterialError> {
+    [true, false]
+        .into_iter()
+        .map(|stirrups| (concrete_block(stirrups), stirrups))
+        .filter(|(block, _)| mesh.block(block).is_some())
+        .map(|(block, stirrups)| Ok((block, concrete(specimen, settings, stirrups)?)))
+        .collect()
+}
+
+/// Mean properties of the concrete as the preset reads the reported strength.
+fn properties(specimen: &Specimen, preset: Preset) -> Result<ConcreteScalars, MaterialError> {
+    let reported = &specimen.concrete;
+    let strength = reported.reported_strength_mpa.get();
+    match preset {
+        Preset::Default => ConcreteScalars::from_mean(strength),
+        Preset::Characteristic => Ok(ConcreteScalars {
+            fctm_mpa: reported.reported_tensile_mpa.get(),
+            ..ConcreteScalars::from_characteristic(strength)?
+        }),
+    }
+}
+
+/// Mean compressive strength (MPa) as the preset reads the report.
+pub(super) fn mean_strength(specimen: &Specimen, preset: Preset) -> Result<f64, MaterialError> {
+    Ok(properties(specimen, preset)?.fcm_mpa)
+}
+
+/// Law of the concrete in zones with or without stirrups. The fixed-crack law takes the reported modulus;
+/// the reference takes that of the Model Code.
+fn concrete(
+    specimen: &Specimen,
+    settings: &ModelSettings,
+    stirrups: bool,
+) -> Result<SolidLaw, MaterialError> {
+    let c = properties(specimen, settings.preset)?;
+    Ok(match settings.law {
+        ConcreteLaw::FixedCrack => {
+            let young = specimen.concrete.young_mpa.get();
+            let parameters = FixedCrackParameters {
+                poisson: specimen.concrete.poisson.get(),
+                shear_floor: settings.shear_floor,
+                ..FixedCrackParameters::from_strength(c.fcm_mpa, c.fctm_mpa, young)
+            };
+            let onset = Ottosen::new(&Calibration::model_code(c.fcm_mpa, c.fctm_mpa))?;
+            Arc::new(FixedCrack::new(parameters, Some(onset))?)
+        }
+        ConcreteLaw::Reference => {
+            let stiffening = if stirrups {
+                TensionStiffening::Stirrups
+            } else {
+                TensionStiffening::VerticalCracks([0.0, 1.0, 0.0])
+            };
+            Arc::new(Reference::new(&ReferenceParameters::new(c, stiffening))?)
+        }
+    })
+}
+
+/// Elastic law of every plate, by block.
+pub(super) fn plates(specimen: &Specimen) -> Result<Vec<(String, SolidLaw)>, MaterialError> {
+    let supports = specimen.supports.iter().map(|s| &s.plate).enumerate();
+    let loads = specimen.loads.iter().map(|l| &l.plate).enumerate();
+    supports
+        .map(|(i, plate)| (support_plate(i), plate))
+        .chain(loads.map(|(i, plate)| (load_plate(i), plate)))
+        .map(|(block, plate)| -> Result<_, MaterialError> {
+            let law = Elastic::new(plate.young_mpa.get(), plate.poisson.get())?;
+            Ok((block, Arc::new(law) as SolidLaw))
+        })
+        .collect()
+}
+
+/// Weight of the concrete per volume (N/mm3).
+pub(super) fn weight_density(specimen: &Specimen) -> f64 {
+    specimen.concrete.density_kg_m3.get() * specimen.gravity.acceleration_m_s2.get() * 1e-9
+}

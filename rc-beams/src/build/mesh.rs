@@ -1,0 +1,98 @@
+//! Grid of the half beam with its plates and stubs.
+
+use fe_core::grid::GridBuilder;
+use fe_core::mesh::Mesh;
+
+use super::lines::{Patch, axis_lines, equal_lines};
+use super::{BuildError, ModelSettings};
+use crate::spec::Specimen;
+
+/// Block of concrete in zones with or without stirrups.
+pub(super) const fn concrete_block(stirrups: bool) -> &'static str {
+    if stirrups {
+        "concrete"
+    } else {
+        "concrete without stirrups"
+    }
+}
+
+/// Block of the plate at support `i`.
+pub(super) fn support_plate(i: usize) -> String {
+    format!("support plate {}", i + 1)
+}
+
+/// Block of the plate at load `i`.
+pub(super) fn load_plate(i: usize) -> String {
+    format!("load plate {}", i + 1)
+}
+
+/// The half beam, z from 0 to half the width; element faces on the edges and centres of all plates.
+pub(super) fn mesh(specimen: &Specimen, settings: &ModelSettings) -> Result<Mesh, BuildError> {
+    let [nx, ny, nz] = settings.mesh;
+    let (length, height) = (specimen.beam.length_mm.get(), specimen.beam.height_mm.get());
+    let patches = patches(specimen);
+    let xs = axis_lines(length, &patches, nx).ok_or_else(|| BuildError::TooFewElements {
+        specimen: specimen.name.clone(),
+        nx,
+        example: (nx + 1..4 * nx + 64)
+            .find(|&n| axis_lines(length, &patches, n).is_some())
+            .unwrap_or(60),
+    })?;
+    let ys = equal_lines(0.0, height, ny);
+    let zs = equal_lines(0.0, specimen.half_width_mm(), nz);
+    let mut grid = GridBuilder::new();
+    for column in xs.windows(2) {
+        let centre = 0.5 * (column[0] + column[1]);
+        let block = concrete_block(has_stirrups(specimen, centre));
+        grid.add_box(block, column, &ys, &zs);
+    }
+    for (i, s) in specimen.supports.iter().enumerate() {
+        let mut top = 0.0;
+        if let Some(stub) = &s.stub {
+            let depth = stub.depth_mm.get();
+            let own = under(&xs, s.x_mm.get(), stub.length_mm.get());
+            let rows = ((depth / (height / ny as f64)).round() as usize).max(1);
+            let block = concrete_block(has_stirrups(specimen, s.x_mm.get()));
+            grid.add_box(block, &own, &equal_lines(-depth, 0.0, rows), &zs);
+            top = -depth;
+        }
+        let own = under(&xs, s.x_mm.get(), s.plate.length_mm.get());
+        let plate = [top - s.plate.thickness_mm.get(), top];
+        grid.add_box(&support_plate(i), &own, &plate, &zs);
+    }
+    for (i, l) in specimen.loads.iter().enumerate() {
+        let own = under(&xs, l.x_mm.get(), l.plate.length_mm.get());
+        let plate = [height, height + l.plate.thickness_mm.get()];
+        grid.add_box(&load_plate(i), &own, &plate, &zs);
+    }
+    Ok(grid.finish()?)
+}
+
+/// Whether the zone at `x` (mm) has stirrups.
+fn has_stirrups(specimen: &Specimen, x: f64) -> bool {
+    specimen.stirrups.as_ref().is_some_and(|s| s.cover(x))
+}
+
+/// Plates and stubs along the axis, from left to right.
+fn patches(specimen: &Specimen) -> Vec<Patch> {
+    let supports = specimen.supports.iter().map(|s| Patch {
+        centre: s.x_mm.get(),
+        length: s.plate.length_mm.get(),
+    });
+    let loads = specimen.loads.iter().map(|l| Patch {
+        centre: l.x_mm.get(),
+        length: l.plate.length_mm.get(),
+    });
+    let mut patches: Vec<Patch> = supports.chain(loads).collect();
+    patches.sort_by(|a, b| a.centre.total_cmp(&b.centre));
+    patches
+}
+
+/// Grid lines within a plate.
+fn under(xs: &[f64], centre: f64, length: f64) -> Vec<f64> {
+    let reach = 0.5 * length + 1e-6;
+    xs.iter()
+        .copied()
+        .filter(|x| (x - centre).abs() <= reach)
+        .collect()
+}

@@ -1,0 +1,133 @@
+//! Bars and stirrups of a specimen as embedded bars.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use fe_core::kinematics::Axial;
+use fe_core::material::Material;
+use fe_elements::{Bar, Dowel};
+use fe_materials::Biso;
+
+use super::{BuildError, ModelSettings, laws};
+use crate::spec::{Specimen, Steel};
+
+/// What a bar is for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum BarKind {
+    /// A longitudinal bar.
+    Longitudinal,
+    /// The vertical leg of a stirrup at a position along the beam (mm).
+    StirrupLeg(f64),
+    /// A horizontal leg of a stirrup.
+    Tie,
+}
+
+/// A bar of the model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BarRecord {
+    /// Name.
+    pub name: String,
+    /// What it is for.
+    pub kind: BarKind,
+    /// Ends (mm).
+    pub ends: [[f64; 3]; 2],
+    /// Yield stress (MPa).
+    pub fy_mpa: f64,
+    /// Elements it was cut into, in no particular order along the bar.
+    pub elements: Range<usize>,
+}
+
+/// Every bar of the half model with its record, elements still empty.
+pub(super) fn bars(
+    specimen: &Specimen,
+    settings: &ModelSettings,
+) -> Result<Vec<(Bar, BarRecord)>, BuildError> {
+    let mut bars = Vec::new();
+    let stock = |area_mm2: f64, diameter: f64, steel: &Steel| -> Result<Stock, BuildError> {
+        Ok(Stock {
+            area_mm2,
+            fy_mpa: steel.fy_mpa.get(),
+            law: law(steel)?,
+            dowel: dowel(specimen, settings, diameter, steel)?,
+        })
+    };
+    for b in &specimen.bars {
+        let area = b.area_mm2.get() * f64::from(b.count_in_half.get());
+        let stock = stock(area, b.diameter_mm.get(), &b.steel)?;
+        let at = |x: f64| [x, b.axis.y_mm.get(), b.axis.z_mm.get()];
+        let ends = [at(b.axis.x_from_mm.get()), at(b.axis.x_to_mm.get())];
+        bars.push(stock.bar(b.name.clone(), BarKind::Longitudinal, ends));
+    }
+    if let Some(s) = &specimen.stirrups {
+        let stock = stock(s.area_mm2.get(), s.diameter_mm.get(), &s.steel)?;
+        for x in s.positions() {
+            let leg = &s.shape.vertical;
+            let ends = [&leg.y_from_mm, &leg.y_to_mm].map(|y| [x, y.get(), leg.z_mm.get()]);
+            let name = format!("stirrup at {x}");
+            bars.push(stock.bar(name, BarKind::StirrupLeg(x), ends));
+            for tie in &s.shape.horizontal {
+                let y = tie.y_mm.get();
+                let ends = [&tie.z_from_mm, &tie.z_to_mm].map(|z| [x, y, z.get()]);
+                bars.push(stock.bar(format!("tie at {x}, {y}"), BarKind::Tie, ends));
+            }
+        }
+    }
+    Ok(bars)
+}
+
+/// What bars of one kind have in common.
+struct Stock {
+    area_mm2: f64,
+    fy_mpa: f64,
+    law: Arc<dyn Material<Axial>>,
+    dowel: Option<Dowel>,
+}
+
+impl Stock {
+    fn bar(&self, name: String, kind: BarKind, ends: [[f64; 3]; 2]) -> (Bar, BarRecord) {
+        let bar = Bar {
+            name: name.clone(),
+            polyline: ends.into(),
+            area_mm2: self.area_mm2,
+            law: Arc::clone(&self.law),
+            dowel: self.dowel,
+        };
+        let record = BarRecord {
+            name,
+            kind,
+            ends,
+            fy_mpa: self.fy_mpa,
+            elements: 0..0,
+        };
+        (bar, record)
+    }
+}
+
+fn law(steel: &Steel) -> Result<Arc<dyn Material<Axial>>, BuildError> {
+    let young = steel.young_mpa.get();
+    let tangent = young * steel.hardening_ratio.get();
+    Ok(Arc::new(Biso::hot_rolled(
+        young,
+        steel.fy_mpa.get(),
+        tangent,
+    )?))
+}
+
+/// Dowel action in the plane of the beam.
+fn dowel(
+    specimen: &Specimen,
+    settings: &ModelSettings,
+    diameter: f64,
+    steel: &Steel,
+) -> Result<Option<Dowel>, BuildError> {
+    if !settings.dowel {
+        return Ok(None);
+    }
+    let strength = laws::mean_strength(specimen, settings.preset)?;
+    let band = settings.nominal_band_width(specimen);
+    let young = steel.young_mpa.get();
+    let plane = [0.0, 0.0, 1.0];
+    Ok(Some(Dowel::he_kwan(
+        diameter, strength, young, band, plane,
+    )?))
+}

@@ -1,0 +1,102 @@
+//! How a specimen is modelled: one set for all beams.
+
+use fe_elements::{BandWidth, HexRule};
+
+use crate::spec::Specimen;
+
+/// Law of the concrete.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ConcreteLaw {
+    /// Fixed orthogonal smeared cracks with history-based shear transfer.
+    FixedCrack,
+    /// The law of the reference: isochoric plasticity, fixed cracks, tension stiffening.
+    Reference,
+}
+
+impl ConcreteLaw {
+    /// Name, as on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::FixedCrack => "fixed-crack",
+            Self::Reference => "reference",
+        }
+    }
+}
+
+/// A named set of settings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Preset {
+    /// The reported strength is a mean, full integration, dowel action of the bars.
+    Default,
+    /// The reported strength is a characteristic value (as the reference reads it) with the reported
+    /// tensile strength, reduced integration, no dowel action.
+    Characteristic,
+}
+
+impl Preset {
+    /// Name, as on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Default => "default",
+            Self::Characteristic => "characteristic",
+        }
+    }
+}
+
+/// Settings of a model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModelSettings {
+    /// Named set the settings started from.
+    pub preset: Preset,
+    /// Elements along, over the height of, and across the half beam.
+    pub mesh: [usize; 3],
+    /// Integration of the concrete.
+    pub integration: HexRule,
+    /// Law of the concrete.
+    pub law: ConcreteLaw,
+    /// Dowel action of bars against shear across cracks.
+    pub dowel: bool,
+    /// Floor of the shear factor of open cracks (-).
+    pub shear_floor: f64,
+}
+
+impl ModelSettings {
+    /// The settings of a preset on the reference mesh 60 x 4 x 1.
+    pub const fn new(preset: Preset) -> Self {
+        let (integration, dowel, shear_floor) = match preset {
+            Preset::Default => (HexRule::Full, true, 1e-4),
+            Preset::Characteristic => (HexRule::Reduced, false, 1e-3),
+        };
+        Self {
+            preset,
+            mesh: [60, 4, 1],
+            integration,
+            law: ConcreteLaw::FixedCrack,
+            dowel,
+            shear_floor,
+        }
+    }
+
+    /// Crack-band width (mm) of the average concrete element: the length over which a dowel acts.
+    pub(super) fn nominal_band_width(&self, specimen: &Specimen) -> f64 {
+        let [nx, ny, _] = self.mesh.map(|n| n as f64);
+        let area = specimen.beam.length_mm.get() / nx * specimen.beam.height_mm.get() / ny;
+        self.band_factor() * area.sqrt()
+    }
+
+    const fn band_factor(&self) -> f64 {
+        match self.law {
+            ConcreteLaw::FixedCrack => 0.5,
+            ConcreteLaw::Reference => 1.0,
+        }
+    }
+
+    /// Crack-band width of concrete elements: half the side of the equivalent square in the plane of
+    /// the beam for the fixed-crack law, the full side for the others.
+    pub const fn band_width(&self) -> BandWidth {
+        BandWidth::InPlane {
+            normal: [0.0, 0.0, 1.0],
+            factor: self.band_factor(),
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Protects the models: what the elements hold must be what the specimen says.
+
+use fe_core::state::StateStore;
+use fe_solver::control::StepControl;
+use fe_solver::recorder::{Continue, Recorder, StepView};
+use fe_solver::secant::SecantAnderson;
+use fe_solver::stage::Stage;
+
+use super::{BarKind, Beam, BuildError, ModelSettings, Preset};
+use crate::spec::{BUILTIN, Specimen, read};
+
+fn specimen(name: &str) -> Specimen {
+    let (_, text) = BUILTIN.iter().find(|(n, _)| *n == name).unwrap();
+    read(name, text).unwrap()
+}
+
+fn beam(name: &str) -> Beam {
+    Beam::new(&specimen(name), &ModelSettings::new(Preset::Default)).unwrap()
+}
+
+struct Silent;
+
+impl Recorder for Silent {
+    fn step(&mut self, _view: &StepView<'_>) -> std::io::Result<Continue> {
+        Ok(Continue::Yes)
+    }
+}
+
+/// specimens.md: a beam of series A weighs 3.477 kN, carried by its supports before loading.
+#[test]
+fn the_supports_carry_the_weight() {
+    let beam = beam("A-SO3-1");
+    let mut state = StateStore::new(beam.model.elements());
+    let zero = vec![0.0; beam.model.dofs().len()];
+    let mut stage = Stage::new(&beam.model, beam.weight.clone(), &mut state, zero).unwrap();
+    let mut driver = SecantAnderson::default();
+    StepControl::new(1.0, 1.0)
+        .run(&mut stage, &mut driver, &mut Silent)
+        .unwrap();
+    let reactions = beam.measures.reactions(|d| stage.reaction(d));
+    let weight = 2.0 * reactions.iter().sum::<f64>();
+    assert!((weight - 3477.0).abs() < 1.0, "{weight}");
+    assert!((beam.measures.load_kn(&reactions) - 3.477).abs() < 1e-3);
+}
+
+/// Every specimen builds on the reference mesh: 240 elements of concrete (more with a stub), bars of the full
+/// length cut once at every face, a gauge on every stirrup of the test span.
+#[test]
+fn every_specimen_builds() {
+    for (name, _) in BUILTIN {
+        let (specimen, beam) = (specimen(name), beam(name));
+        let stubs = specimen.supports.iter().any(|s| s.stub.is_some());
+        assert_eq!(beam.concrete.len() > 240, stubs, "{name}");
+        for bar in &beam.bars {
+            let [a, b] = bar.ends;
+            let expected: f64 = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f64>().sqrt();
+            let mut volume = 0.0;
+            for e in bar.elements.clone() {
+                let element = &beam.model.elements()[e];
+                let mut state = vec![0.0; element.state_len()];
+                element.init_state(&mut state);
+                let zero = vec![0.0; 60];
+                element
+                    .sample(&zero, &state, &mut |s| volume += s.volume)
+                    .unwrap();
+            }
+            let area = match bar.kind {
+                BarKind::Longitudinal => specimen.bars[0].area_mm2.get(),
+                _ => specimen.stirrups.as_ref().unwrap().area_mm2.get(),
+            };
+            assert!(
+                (volume / area - expected).abs() < 1e-6 * expected,
+                "{name} {}",
+                bar.name
+            );
+        }
+        let span = &specimen.measuring.test_span;
+        let inside = |b: &&super::BarRecord| {
+            matches!(b.kind, BarKind::StirrupLeg(x)
+                if (span.x_from_mm.get()..=span.x_to_mm.get()).contains(&x))
+        };
+        let stirrups = beam.bars.iter().filter(inside).count();
+        let longitudinal = specimen.bars.len() * (specimen.loads.len() + 1);
+        assert_eq!(beam.gauges.len(), stirrups + longitudinal, "{name}");
+    }
+}
+
+/// The load of series B is the shear force at the inner support: half of all reactions less the end
+/// reaction, doubled for the whole width.
+#[test]
+fn the_shear_force_of_series_b_is_read_from_reactions() {
+    let measures = beam("B-CO1").measures;
+    let v = measures.load_kn(&[10e3, 60e3, 12e3]);
+    assert!((v - 2.0 * (41.0 - 12.0)).abs() < 1e-12);
+}
+
+/// A mesh that cannot hold the plates is refused with a number of elements that can.
+#[test]
+fn too_few_elements_are_refused() {
+    let settings = ModelSettings {
+        mesh: [9, 4, 1],
+        ..ModelSettings::new(Preset::Default)
+    };
+    let error = Beam::new(&specimen("A-SO3-1"), &settings).unwrap_err();
+    let BuildError::TooFewElements { example, .. } = error else {
+        panic!("{error}");
+    };
+    let settings = ModelSettings {
+        mesh: [example, 4, 1],
+        ..settings
+    };
+    assert!(Beam::new(&specimen("A-SO3-1"), &settings).is_ok());
+}

@@ -1,0 +1,138 @@
+//! Beams named on the command line: those that come with the program, and files.
+
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+use miette::Diagnostic;
+
+use crate::exit::Exit;
+use crate::ronfile::RonError;
+use crate::spec::{BUILTIN, Specimen, read};
+use crate::suggest::nearest;
+
+/// What is wrong with a beam named on the command line.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+#[non_exhaustive]
+pub enum InputError {
+    /// Neither a beam of the program nor a file.
+    #[error("there is no beam `{name}`")]
+    #[diagnostic(code(rc_beams::unknown_beam))]
+    UnknownBeam {
+        /// The name given.
+        name: String,
+        /// Names that exist.
+        #[help]
+        help: String,
+    },
+    /// Two beams would write into one folder.
+    #[error("the beam `{name}` is given twice; allowed: once, its name is that of its results")]
+    #[diagnostic(
+        code(rc_beams::twice),
+        help("give it once, or change the name in one file")
+    )]
+    Twice {
+        /// The name of the beam.
+        name: String,
+    },
+    /// A file that cannot be read.
+    #[error("cannot read {}", path.display())]
+    #[diagnostic(code(rc_beams::file), help("check the path"))]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A file whose content is wrong.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Content(#[from] RonError),
+}
+
+impl InputError {
+    /// How the program ends because of it.
+    pub fn exit(&self) -> Exit {
+        match self {
+            Self::UnknownBeam { .. } | Self::Twice { .. } => Exit::Usage,
+            Self::File { .. } => Exit::File,
+            Self::Content(_) => Exit::BadInput,
+        }
+    }
+}
+
+/// The specimens named: beams of the program, files, or `all` beams of the program.
+///
+/// # Errors
+///
+/// Everything wrong with any of them.
+pub fn load_all(names: &[String]) -> Result<Vec<Specimen>, Vec<InputError>> {
+    let mut specimens: Vec<Specimen> = Vec::new();
+    let mut errors = Vec::new();
+    let all = BUILTIN.iter().map(|(name, _)| *name);
+    let names = names.iter().flat_map(|name| match name.as_str() {
+        "all" => all.clone().collect(),
+        other => vec![other],
+    });
+    for name in names {
+        match load(name) {
+            Ok(new) if specimens.iter().any(|s| s.name == new.name) => {
+                errors.push(InputError::Twice { name: new.name });
+            }
+            Ok(new) => specimens.push(new),
+            Err(more) => errors.extend(more),
+        }
+    }
+    if errors.is_empty() {
+        Ok(specimens)
+    } else {
+        Err(errors)
+    }
+}
+
+/// The specimen of that name, or of that file.
+///
+/// # Errors
+///
+/// Everything wrong with it.
+pub fn load(name: &str) -> Result<Specimen, Vec<InputError>> {
+    let text = text(name).map_err(|error| vec![error])?;
+    read(name, &text).map_err(|errors| errors.into_iter().map(InputError::from).collect())
+}
+
+fn text(name: &str) -> Result<String, InputError> {
+    if let Some((_, text)) = BUILTIN.iter().find(|(known, _)| *known == name) {
+        return Ok((*text).into());
+    }
+    let path = Path::new(name);
+    let names_a_file = path.extension().is_some_and(|e| e == "ron")
+        || path.components().count() > 1
+        || path.exists();
+    if names_a_file {
+        read_file(path)
+    } else {
+        Err(unknown(name))
+    }
+}
+
+/// The text of a file.
+///
+/// # Errors
+///
+/// [`InputError::File`].
+pub(crate) fn read_file(path: &Path) -> Result<String, InputError> {
+    fs::read_to_string(path).map_err(|source| InputError::File {
+        path: path.into(),
+        source,
+    })
+}
+
+fn unknown(name: &str) -> InputError {
+    let guess = nearest(name, BUILTIN.iter().map(|(known, _)| *known));
+    let guess = guess
+        .map(|g| format!("did you mean `{g}`? "))
+        .unwrap_or_default();
+    InputError::UnknownBeam {
+        name: name.into(),
+        help: format!("{guess}`rc-beams list` shows all; a file ends in .ron"),
+    }
+}

@@ -1,0 +1,44 @@
+//! Files and folders of the results.
+
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+use miette::Diagnostic;
+
+/// A file or folder that cannot be written.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+#[error("cannot write {}", path.display())]
+#[diagnostic(code(rc_beams::output), help("choose another place with --output"))]
+pub struct OutputError {
+    /// The file or folder.
+    pub path: PathBuf,
+    /// Why.
+    pub source: io::Error,
+}
+
+/// Makes the folder if it is missing and makes sure that files can be written into it.
+///
+/// # Errors
+///
+/// [`OutputError`] if not.
+pub fn prepare(path: &Path) -> Result<(), OutputError> {
+    fs::create_dir_all(path)
+        .and_then(|()| tempfile::tempfile_in(path))
+        .map(|_| ())
+        .map_err(|source| OutputError {
+            path: path.into(),
+            source,
+        })
+}
+
+/// Writes a file, anew if it exists.
+///
+/// # Errors
+///
+/// [`OutputError`] if it cannot be written.
+pub fn write(path: &Path, content: &[u8]) -> Result<(), OutputError> {
+    fs::write(path, content).map_err(|source| OutputError {
+        path: path.into(),
+        source,
+    })
+}

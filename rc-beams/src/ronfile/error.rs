@@ -1,0 +1,176 @@
+//! What is wrong with a file, and where.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use miette::{Diagnostic, NamedSource, SourceSpan};
+use ron::error::{Error, Position, SpannedError};
+
+use super::places::Places;
+use crate::suggest::nearest;
+
+/// An error of a file; shows the line it stands in.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+#[error("{message}")]
+#[diagnostic(code(rc_beams::input))]
+pub struct RonError {
+    message: String,
+    label: String,
+    #[help]
+    help: Option<String>,
+    #[source_code]
+    file: Arc<NamedSource<String>>,
+    #[label("{label}")]
+    place: SourceSpan,
+}
+
+impl RonError {
+    /// From the error of the parser at the field `path`.
+    pub(super) fn parse(file: &Arc<NamedSource<String>>, path: &str, error: &SpannedError) -> Self {
+        let text = file.inner();
+        let place = offset(text, error.span.start)..offset(text, error.span.end);
+        let parent = path.trim_end_matches('?');
+        let (field, place, words) = mistyped_number(text, place.start)
+            .unwrap_or_else(|| ("", place, Words::of(&error.code)));
+        let field = if parent == path {
+            path.into()
+        } else {
+            format!("{parent}{field}")
+        };
+        Self::new(file, field.trim_matches('.'), words, place)
+    }
+
+    /// From what is wrong with the value at `path`; shows the first line of it.
+    pub(super) fn found(
+        file: &Arc<NamedSource<String>>,
+        path: &str,
+        what: String,
+        help: Option<String>,
+    ) -> Self {
+        let mut place = Places::of(file.inner()).find(path);
+        let value = file.inner().get(place.clone()).unwrap_or_default();
+        place.end = place.start + value.lines().next().unwrap_or_default().len();
+        Self::new(file, "", Words::new(what, "here", help), place)
+    }
+
+    fn new(
+        file: &Arc<NamedSource<String>>,
+        field: &str,
+        words: Words,
+        place: Range<usize>,
+    ) -> Self {
+        let Words { what, label, help } = words;
+        let message = if field.is_empty() {
+            what
+        } else {
+            format!("{field}: {what}")
+        };
+        Self {
+            message,
+            label,
+            help,
+            file: Arc::clone(file),
+            place: place.into(),
+        }
+    }
+}
+
+/// What is wrong, the words under the place, and what to do.
+struct Words {
+    what: String,
+    label: String,
+    help: Option<String>,
+}
+
+impl Words {
+    fn new(what: impl Into<String>, label: impl Into<String>, help: Option<String>) -> Self {
+        Self {
+            what: what.into(),
+            label: label.into(),
+            help,
+        }
+    }
+
+    /// The words for an error of the parser.
+    fn of(error: &Error) -> Self {
+        match error {
+            Error::NoSuchStructField {
+                expected, found, ..
+            } => Self::unknown("no such field", found, expected),
+            Error::NoSuchEnumVariant {
+                expected, found, ..
+            } => Self::unknown("no such choice", found, expected),
+            Error::MissingStructField { field, .. } => Self::new(
+                format!("the field `{field}` is missing"),
+                format!("add `{field}: ...` before this"),
+                None,
+            ),
+            Error::DuplicateStructField { field, .. } => Self::new(
+                format!("the field `{field}` stands twice"),
+                "again here",
+                Some("remove one of the two".into()),
+            ),
+            Error::Message(what) => Self::new(what, "this value", None),
+            Error::Eof => Self::new(
+                "the text ends too early",
+                "here",
+                Some("close all brackets".into()),
+            ),
+            other => Self::new(other.to_string().to_lowercase(), "here", None),
+        }
+    }
+
+    fn unknown(what: &str, found: &str, allowed: &[&str]) -> Self {
+        let label = match nearest(found, allowed.iter().copied()) {
+            Some(name) => format!("did you mean `{name}`?"),
+            None => "not known here".into(),
+        };
+        Self::new(
+            what,
+            label,
+            Some(format!("allowed: {}", allowed.join(", "))),
+        )
+    }
+}
+
+/// Recognises a number whose tail the parser stumbled over at `at`: a decimal comma, a unit, or a
+/// fraction where a whole number belongs. Gives the name of its field, its place and the words.
+fn mistyped_number(text: &str, at: usize) -> Option<(&str, Range<usize>, Words)> {
+    let (before, after) = text.split_at_checked(at)?;
+    let tail = after
+        .split(|c: char| !c.is_ascii_alphanumeric() && c != '.')
+        .next()?;
+    let first = tail.chars().next()?;
+    let comma = before.ends_with(',') && first.is_ascii_digit();
+    let before = before.trim_end_matches(if comma { ',' } else { ' ' });
+    let lead = before.trim_end_matches(|c: char| c.is_ascii_digit() || ".+-".contains(c));
+    let number = &before[lead.len()..];
+    let is_field = after[tail.len()..].trim_start().starts_with(':');
+    if !number.ends_with(|c: char| c.is_ascii_digit()) || is_field {
+        return None;
+    }
+    let words = if comma {
+        let help = format!("use a decimal point: {number}.{tail}");
+        Words::new("a number with a decimal comma", "this number", Some(help))
+    } else if first.is_ascii_alphabetic() {
+        let help = format!("write {number} alone: the name of the field states the unit");
+        Words::new("a number with a unit behind it", "this number", Some(help))
+    } else {
+        Words::new("a fraction; allowed: whole numbers", "this number", None)
+    };
+    let name = lead.trim_end().strip_suffix(':').unwrap_or_default();
+    let name = name
+        .rsplit(|c: char| !c.is_alphanumeric() && c != '_')
+        .next()?;
+    Some((name, lead.len()..at + tail.len(), words))
+}
+
+/// Byte offset of a line and column, both counted from 1, columns in characters.
+fn offset(text: &str, position: Position) -> usize {
+    let lines = text
+        .split_inclusive('\n')
+        .take(position.line.saturating_sub(1));
+    let line: usize = lines.map(str::len).sum();
+    let columns = text[line..].chars().take(position.col.saturating_sub(1));
+    line + columns.map(char::len_utf8).sum::<usize>()
+}

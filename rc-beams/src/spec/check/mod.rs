@@ -1,0 +1,98 @@
+//! Checks between the fields of a specimen: what no number tells alone.
+
+mod reinforcement;
+mod supports;
+
+use std::fmt::Display;
+use std::ops::RangeInclusive;
+
+use super::specimen::Specimen;
+
+/// Slack of comparisons of lengths (mm).
+const TOLERANCE: f64 = 1e-6;
+
+/// Something wrong with a specimen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// The field, as a path such as `bars[0].axis.y_mm`.
+    pub path: String,
+    /// What is wrong, with value and allowed range.
+    pub message: String,
+    /// What to do.
+    pub remedy: String,
+}
+
+/// Everything wrong with a specimen whose numbers are each in range; empty if it can be modelled.
+pub fn check(specimen: &Specimen) -> Vec<Finding> {
+    let mut checks = Checks {
+        specimen,
+        findings: Vec::new(),
+    };
+    checks.name();
+    checks.reinforcement();
+    checks.supports();
+    checks.findings
+}
+
+struct Checks<'a> {
+    specimen: &'a Specimen,
+    findings: Vec<Finding>,
+}
+
+impl Checks<'_> {
+    fn report(&mut self, path: impl Display, message: impl Display, remedy: impl Display) {
+        self.findings.push(Finding {
+            path: path.to_string(),
+            message: message.to_string(),
+            remedy: remedy.to_string(),
+        });
+    }
+
+    /// Reports a coordinate (mm) outside its range.
+    fn within(
+        &mut self,
+        path: impl Display,
+        (what, value): (&str, f64),
+        range: RangeInclusive<f64>,
+        remedy: &str,
+    ) {
+        let (low, high) = (range.start(), range.end());
+        if value < low - TOLERANCE || value > high + TOLERANCE {
+            let message = format!("{what} at {value} mm; allowed: {low} to {high} mm");
+            self.report(path, message, remedy);
+        }
+    }
+
+    /// Reports a stretch (mm) that ends before it begins.
+    fn ascending(&mut self, path: impl Display, from: f64, to: f64) {
+        if to <= from {
+            let message = format!("ends at {to} mm; allowed: more than {from} mm, where it begins");
+            self.report(path, message, "exchange the two ends");
+        }
+    }
+
+    fn length(&self) -> f64 {
+        self.specimen.beam.length_mm.get()
+    }
+
+    fn height(&self) -> f64 {
+        self.specimen.beam.height_mm.get()
+    }
+
+    fn half_width(&self) -> f64 {
+        self.specimen.half_width_mm()
+    }
+
+    /// The name is that of a folder.
+    fn name(&mut self) {
+        let name = &self.specimen.name;
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+        if name.is_empty() || name.starts_with('.') || !name.chars().all(plain) {
+            self.report(
+                "name",
+                format!("{name:?} cannot name a folder; allowed: letters, digits, - _ ."),
+                "choose a short name, for instance \"A-SO3-1\"",
+            );
+        }
+    }
+}

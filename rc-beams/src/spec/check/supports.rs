@@ -1,0 +1,138 @@
+//! Supports, loads and measuring points lie on the beam and hold it.
+
+use super::{Checks, TOLERANCE};
+use crate::spec::specimen::{Held, LoadMeasure};
+
+const ALONG: &str = "x is measured from the left end of the beam";
+
+/// A plate or stub that touches the beam.
+struct Contact {
+    path: String,
+    centre: f64,
+    length: f64,
+}
+
+impl Checks<'_> {
+    pub(super) fn supports(&mut self) {
+        let specimen = self.specimen;
+        let below = specimen.supports.iter().enumerate().map(|(i, s)| Contact {
+            path: format!("supports[{i}].x_mm"),
+            centre: s.x_mm.get(),
+            length: s
+                .stub
+                .as_ref()
+                .map_or(s.plate.length_mm, |stub| stub.length_mm)
+                .get(),
+        });
+        self.contacts("support", below.collect());
+        let above = specimen.loads.iter().enumerate().map(|(i, load)| Contact {
+            path: format!("loads[{i}].x_mm"),
+            centre: load.x_mm.get(),
+            length: load.plate.length_mm.get(),
+        });
+        self.contacts("load", above.collect());
+        self.held();
+        self.stubs();
+        self.measuring();
+    }
+
+    /// Plates lie on the beam, from left to right, apart from each other.
+    fn contacts(&mut self, what: &str, contacts: Vec<Contact>) {
+        let mut end = 0.0;
+        for Contact {
+            path,
+            centre,
+            length,
+        } in contacts
+        {
+            let half = 0.5 * length;
+            let range = end + half..=(self.length() - half).max(end + half);
+            let remedy = format!(
+                "a plate of {length} mm lies on the beam and behind the {what} to its left"
+            );
+            self.within(
+                path,
+                (&format!("centre of the {what}"), centre),
+                range,
+                &remedy,
+            );
+            end = centre + half;
+        }
+    }
+
+    fn held(&mut self) {
+        let supports = &self.specimen.supports;
+        let count = |held| supports.iter().filter(|s| s.held.contains(&held)).count();
+        let (vertical, along) = (count(Held::Uy), count(Held::Ux));
+        if vertical < 2 {
+            self.report(
+                "supports",
+                format!(
+                    "supports that hold Uy: {vertical}; allowed: at least 2, or the beam turns"
+                ),
+                "add a support with `held: [Uy]`",
+            );
+        }
+        if along == 0 {
+            self.report(
+                "supports",
+                "supports that hold Ux: 0; allowed: at least 1, or the beam slides",
+                "write `held: [Ux, Uy]` at one support",
+            );
+        }
+        if self.specimen.loads.is_empty() {
+            self.report("loads", "loads: 0; allowed: at least 1", "add a load");
+        }
+    }
+
+    fn stubs(&mut self) {
+        for (i, support) in self.specimen.supports.iter().enumerate() {
+            let Some(stub) = &support.stub else { continue };
+            let (plate, block) = (support.plate.length_mm.get(), stub.length_mm.get());
+            if plate > block + TOLERANCE {
+                self.report(
+                    format!("supports[{i}].plate.length_mm"),
+                    format!("plate of {plate} mm; allowed: up to {block} mm, the stub above it"),
+                    "shorten the plate or lengthen the stub",
+                );
+            }
+        }
+    }
+
+    fn measuring(&mut self) {
+        let measuring = &self.specimen.measuring;
+        let (length, height, half) = (self.length(), self.height(), self.half_width());
+        let point = &measuring.deflection;
+        for (axis, value, limit) in [
+            ("x", point.x_mm, length),
+            ("y", point.y_mm, height),
+            ("z", point.z_mm, half),
+        ] {
+            self.within(
+                format!("measuring.deflection.{axis}_mm"),
+                ("deflection read", value.get()),
+                0.0..=limit,
+                "the point lies in the half model: x from the left end, y from the soffit, \
+                 z from the middle of the width",
+            );
+        }
+        let span = &measuring.test_span;
+        let (from, to) = (span.x_from_mm.get(), span.x_to_mm.get());
+        let end = ("end of the test span", to);
+        self.within("measuring.test_span.x_to_mm", end, 0.0..=length, ALONG);
+        self.ascending("measuring.test_span.x_to_mm", from, to);
+        let supports = self.specimen.supports.len();
+        if let LoadMeasure::InnerShear { end_support } = measuring.load
+            && end_support >= supports
+        {
+            self.report(
+                "measuring.load.end_support",
+                format!(
+                    "number {end_support} of {supports}; allowed: 0 to {}",
+                    supports.max(1) - 1
+                ),
+                "count from 0 at the left",
+            );
+        }
+    }
+}

@@ -1,0 +1,470 @@
+//! Protects the first hour of a new user: every mistake in an input gets one clear message with file,
+//! line, column, field, allowed range and remedy, a code other than 0, and changes no file.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+const BEAM: &str = include_str!("../specimens/A-SO3-1.ron");
+
+fn rc_beams(arguments: &[&str], folder: &Path) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_rc-beams"))
+        .args(arguments)
+        .current_dir(folder)
+        .env("NO_COLOR", "1")
+        .output()
+        .unwrap()
+}
+
+/// Standard error on one line, so that wrapping does not matter.
+fn message(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr)
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// Runs a copy of A-SO3-1 with one text replaced; `from` also tells where the message must point.
+fn run_changed(from: &str, to: &str) -> (String, Option<i32>) {
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(
+        BEAM.matches(from).count(),
+        1,
+        "{from:?} must stand once in the file"
+    );
+    fs::write(folder.path().join("beam.ron"), BEAM.replace(from, to)).unwrap();
+    let output = rc_beams(&["run", "beam.ron"], folder.path());
+    let left: Vec<_> = fs::read_dir(folder.path())
+        .unwrap()
+        .map(|e| e.unwrap().file_name())
+        .collect();
+    assert_eq!(left, ["beam.ron"], "nothing may be written");
+    assert!(output.stdout.is_empty());
+    (message(&output), output.status.code())
+}
+
+/// `beam.ron:line:column` of `what` inside the changed text.
+fn place(from: &str, to: &str, what: &str) -> String {
+    let text = BEAM.replace(from, to);
+    let at = text.find(to).unwrap() + to.find(what).unwrap();
+    let line = text[..at].matches('\n').count() + 1;
+    let column = text[..at].chars().rev().take_while(|c| *c != '\n').count() + 1;
+    format!("[beam.ron:{line}:{column}]")
+}
+
+/// Text replaced, replacement, the part of it pointed at, words of the message.
+type Case = (
+    &'static str,
+    &'static str,
+    &'static str,
+    &'static [&'static str],
+);
+
+const CASES: &[Case] = &[
+    // Unknown field.
+    (
+        "reported_strength_mpa: 27.5",
+        "reported_strenght_mpa: 27.5",
+        "reported_strenght_mpa",
+        &[
+            "concrete.reported_strenght_mpa: no such field",
+            "did you mean `reported_strength_mpa`?",
+            "allowed: reported_strength_mpa, reported_tensile_mpa, young_mpa, poisson",
+        ],
+    ),
+    // Wrong magnitude of units.
+    (
+        "young_mpa: 25000",
+        "young_mpa: 25",
+        "25",
+        &[
+            "concrete.young_mpa: 25 MPa is out of range",
+            "allowed: 5000 to 60000 MPa",
+            "is it in GPa? Then write 25000",
+        ],
+    ),
+    (
+        "length_mm: 3050",
+        "length_mm: 3.05",
+        "3.05",
+        &[
+            "beam.length_mm: 3.05 mm",
+            "allowed: 500 to 20000 mm",
+            "is it in m? Then write 3050",
+        ],
+    ),
+    (
+        "density_kg_m3: 2540",
+        "density_kg_m3: 2.54",
+        "2.54",
+        &[
+            "concrete.density_kg_m3",
+            "allowed: 1000 to 4000 kg/m3",
+            "in t/m3? Then write 2540",
+        ],
+    ),
+    // Decimal comma, unit behind a number, fraction for a count.
+    (
+        "length_mm: 3050,",
+        "length_mm: 3050,0,",
+        "3050,0",
+        &[
+            "beam.length_mm: a number with a decimal comma",
+            "use a decimal point: 3050.0",
+        ],
+    ),
+    (
+        "length_mm: 3050,",
+        "length_mm: 3050 mm,",
+        "3050 mm",
+        &[
+            "beam.length_mm: a number with a unit behind it",
+            "write 3050 alone",
+        ],
+    ),
+    (
+        "load: TotalReactions",
+        "load: InnerShear(end_support: 1.5)",
+        "1.5",
+        &["measuring.load.InnerShear.end_support: a fraction; allowed: whole numbers"],
+    ),
+    // Not a number.
+    (
+        "length_mm: 3050",
+        "length_mm: NaN",
+        "NaN",
+        &[
+            "beam.length_mm: NaN is not a finite number",
+            "allowed: 500 to 20000 mm",
+        ],
+    ),
+    (
+        "load_kn: 151.0",
+        "load_kn: inf",
+        "inf",
+        &[
+            "test.load_kn: inf is not a finite number",
+            "allowed: 1 to 10000 kN",
+        ],
+    ),
+    // Negative cross-section; one that contradicts the diameter.
+    (
+        "area_mm2: 78.54",
+        "area_mm2: -78.54",
+        "-78.54",
+        &[
+            "stirrups.area_mm2: -78.54 mm2 is out of range",
+            "allowed: 5 to 3000 mm2",
+        ],
+    ),
+    (
+        "area_mm2: 78.54",
+        "area_mm2: 785.4",
+        "785.4",
+        &[
+            "stirrups.area_mm2: 785.4 mm2 for a diameter of 10 mm",
+            "allowed: 62.8 to 86.4 mm2",
+        ],
+    ),
+    // Reinforcement outside the concrete.
+    (
+        "y_mm: 254",
+        "y_mm: 354",
+        "354",
+        &[
+            "bars[1].axis.y_mm: axis of bar \"top\" at 354 mm",
+            "allowed: 16 to 289 mm",
+            "y is measured from the soffit",
+        ],
+    ),
+    (
+        "vertical: (z_mm: 45",
+        "vertical: (z_mm: 95",
+        "95",
+        &[
+            "stirrups.shape.vertical.z_mm: vertical leg at 95 mm",
+            "allowed: 0 to 70 mm",
+        ],
+    ),
+    (
+        "first_mm: 2650",
+        "first_mm: 2600",
+        "2600",
+        &[
+            "stirrups.zones[2].stirrups.first_mm: first stirrup at 2600",
+            "allowed: 2650 to 3050 mm",
+        ],
+    ),
+    (
+        "x_from_mm: 2650",
+        "x_from_mm: 2700",
+        "2700",
+        &["stirrups.zones[2].x_from_mm: zone begins at 2700 mm; allowed: 2650 mm"],
+    ),
+    // Supports and loads.
+    (
+        "held: [Uy]",
+        "held: []",
+        "",
+        &[
+            "supports: supports that hold Uy: 1; allowed: at least 2",
+            "add a support with `held: [Uy]`",
+        ],
+    ),
+    (
+        "held: [Ux, Uy]",
+        "held: [Uy]",
+        "",
+        &[
+            "supports that hold Ux: 0; allowed: at least 1",
+            "write `held: [Ux, Uy]` at one support",
+        ],
+    ),
+    (
+        "held: [Ux, Uy]",
+        "held: [Uz, Uy]",
+        "Uz",
+        &["supports[0].held[0]: no such choice", "allowed: Ux, Uy"],
+    ),
+    (
+        "x_mm: 610",
+        "x_mm: 10",
+        "10",
+        &[
+            "supports[0].x_mm: centre of the support at 10 mm",
+            "allowed: 50 to 3000 mm",
+        ],
+    ),
+    (
+        "x_mm: 1680",
+        "x_mm: 1400",
+        "1400",
+        &[
+            "loads[1].x_mm: centre of the load at 1400 mm",
+            "allowed: 1470 to 3000 mm",
+        ],
+    ),
+    // Measuring points.
+    (
+        "load: TotalReactions",
+        "load: InnerShear(end_support: 2)",
+        "2",
+        &["measuring.load.end_support: number 2 of 2; allowed: 0 to 1"],
+    ),
+    (
+        "y_mm: 0,",
+        "y_mm: 306,",
+        "306",
+        &[
+            "measuring.deflection.y_mm: deflection read at 306 mm",
+            "allowed: 0 to 305 mm",
+        ],
+    ),
+    // Shape of the file.
+    (
+        "series: A,",
+        "",
+        "",
+        &["the field `series` is missing", "add `series: ...`"],
+    ),
+    (
+        "series: A,",
+        "series: A, series: A,",
+        "",
+        &["the field `series` stands twice"],
+    ),
+    (
+        "series: A,",
+        "series: C,",
+        "C",
+        &["series: no such choice", "allowed: A, B"],
+    ),
+    (
+        "name: \"A-SO3-1\"",
+        "name: \"../x\"",
+        "\"../x\"",
+        &["name: \"../x\" cannot name a folder"],
+    ),
+];
+
+#[test]
+fn mistakes_in_a_file_are_named_with_their_place() {
+    for (from, to, what, words) in CASES {
+        let (message, code) = run_changed(from, to);
+        assert_eq!(code, Some(3), "{to:?}: {message}");
+        for words in *words {
+            assert!(
+                message.contains(words),
+                "{to:?}: {words:?} is missing in:\n{message}"
+            );
+        }
+        let place = if what.is_empty() {
+            "[beam.ron:".into()
+        } else {
+            place(from, to, what)
+        };
+        assert!(
+            message.contains(&place),
+            "{to:?}: {place} is missing in:\n{message}"
+        );
+        assert!(message.ends_with("nothing was run"), "{to:?}: {message}");
+    }
+}
+
+/// Arguments, exit code, words of the message.
+type Arguments = (&'static [&'static str], i32, &'static [&'static str]);
+
+const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/cyclic-bar.ron");
+
+const COMMANDS: &[Arguments] = &[
+    (&["point", "missing.ron"], 4, &["cannot read missing.ron"]),
+    (
+        &["point", CASE, "-o", "file/x.csv"],
+        4,
+        &["cannot write file/x.csv"],
+    ),
+    (&["run"], 2, &["<BEAM>..."]),
+    (
+        &["run", "A-SO31"],
+        2,
+        &[
+            "no beam `A-SO31`",
+            "did you mean `A-SO3-1`?",
+            "rc-beams list",
+        ],
+    ),
+    (
+        &["run", "A-SO3-1", "A-SO3-1"],
+        2,
+        &["the beam `A-SO3-1` is given twice"],
+    ),
+    (
+        &["run", "missing.ron"],
+        4,
+        &["cannot read missing.ron", "No such file", "check the path"],
+    ),
+    (
+        &["check", "missing.ron"],
+        4,
+        &["cannot read missing.ron", "1 checked, 1 bad"],
+    ),
+    (
+        &["run", "A-SO3-1", "-o", "file"],
+        4,
+        &["cannot write file", "--output"],
+    ),
+    (
+        &["run", "A-SO3-1", "-o", "file/below"],
+        4,
+        &["cannot write file/below"],
+    ),
+    (
+        &["run", "A-SO3-1", "--mesh", "0x4x1"],
+        2,
+        &["--mesh", "0 elements along", "1 to 1000"],
+    ),
+    (
+        &["run", "A-SO3-1", "--mesh", "60x4"],
+        2,
+        &["--mesh", "2 counts; write three", "60x4x1"],
+    ),
+    (
+        &["run", "A-SO3-1", "--mesh", "60x4xa"],
+        2,
+        &["\"a\" is not a whole number"],
+    ),
+    (
+        &["run", "A-SO3-1", "--until", "-3"],
+        2,
+        &["--until", "-3 mm", "allowed: 0.1 to 500 mm"],
+    ),
+    (
+        &["run", "A-SO3-1", "--until", "NaN"],
+        2,
+        &["NaN is not a finite number"],
+    ),
+    (
+        &["run", "A-SO3-1", "--until", "3,5"],
+        2,
+        &["not a number; use a decimal point"],
+    ),
+    (
+        &["run", "A-SO3-1", "--steps", "0"],
+        2,
+        &["--steps", "0 is not in 1..=1000000"],
+    ),
+    (
+        &["run", "A-SO3-1", "--law", "magic"],
+        2,
+        &["--law", "fixed-crack, reference, objective"],
+    ),
+];
+
+#[test]
+fn mistakes_on_the_command_line_are_named() {
+    for (arguments, code, words) in COMMANDS {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("file");
+        fs::write(&file, "kept").unwrap();
+        let output = rc_beams(arguments, folder.path());
+        let message = message(&output);
+        assert_eq!(
+            output.status.code(),
+            Some(*code),
+            "{arguments:?}: {message}"
+        );
+        for words in *words {
+            assert!(
+                message.contains(words),
+                "{arguments:?}: {words:?} is missing in:\n{message}"
+            );
+        }
+        assert_eq!(fs::read_to_string(&file).unwrap(), "kept");
+        assert_eq!(
+            fs::read_dir(folder.path()).unwrap().count(),
+            1,
+            "{arguments:?} wrote a file"
+        );
+    }
+}
+
+/// One bad beam among good ones: nothing is run, no folder is made.
+#[test]
+fn all_inputs_are_checked_before_the_first_run() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("bad.ron"), BEAM.replace("25000", "25")).unwrap();
+    let output = rc_beams(&["run", "A-SW3-1", "bad.ron", "nobody"], folder.path());
+    assert_eq!(output.status.code(), Some(3));
+    let message = message(&output);
+    assert!(
+        message.contains("bad.ron:") && message.contains("no beam `nobody`"),
+        "{message}"
+    );
+    assert!(!folder.path().join("results").exists());
+}
+
+#[test]
+fn the_beams_of_the_program_are_listed_and_pass_their_checks() {
+    let folder = tempfile::tempdir().unwrap();
+    let listed = rc_beams(&["list"], folder.path());
+    let table = String::from_utf8_lossy(&listed.stdout).into_owned();
+    let beams: Vec<&str> = table
+        .lines()
+        .skip(1)
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
+    assert_eq!(beams.len(), 7, "{table}");
+    let checked = rc_beams(&[&["check"], &beams[..]].concat(), folder.path());
+    assert_eq!(checked.status.code(), Some(0), "{}", message(&checked));
+    assert_eq!(
+        String::from_utf8_lossy(&checked.stdout)
+            .matches(": ok, beam ")
+            .count(),
+        7
+    );
+    let json = rc_beams(&["list", "--json"], folder.path());
+    let rows: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_eq!(rows[0]["name"], "A-SO3-1");
+    assert_eq!(rows[0]["test_load_kn"], 151.0);
+    assert_eq!(rows[6]["test_load_kn"], serde_json::Value::Null);
+}

@@ -1,0 +1,178 @@
+//! Meshes made from boxes, and the elements on them.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use fe_core::element::{Element, ElementError};
+use fe_core::grid::GridBuilder;
+use fe_core::kinematics::Solid;
+use fe_core::material::Material;
+use fe_core::mesh::{Block, CellKind, Mesh, MeshError, NodeId};
+use fe_core::shape::{hex20, quad8};
+use fe_elements::{BandWidth, Hex20, HexRule};
+
+/// Name of the only block of [`boxes`].
+pub const BLOCK: &str = "block";
+
+/// Corners at the ends of the twelve edges, in the order of the mid-side nodes.
+const EDGES: [[usize; 2]; 12] = [
+    [0, 1],
+    [1, 2],
+    [2, 3],
+    [3, 0],
+    [4, 5],
+    [5, 6],
+    [6, 7],
+    [7, 4],
+    [0, 4],
+    [1, 5],
+    [2, 6],
+    [3, 7],
+];
+
+/// `n` equal cells from `low` to `high`.
+pub fn lines(low: f64, high: f64, n: usize) -> Vec<f64> {
+    let step = (high - low) / n as f64;
+    (0..=n).map(|i| low + step * i as f64).collect()
+}
+
+/// A box with one cell between neighbouring grid lines.
+///
+/// # Errors
+///
+/// [`MeshError`] for a line that is not a number.
+pub fn boxes(x: &[f64], y: &[f64], z: &[f64]) -> Result<Mesh, MeshError> {
+    let mut grid = GridBuilder::new();
+    grid.add_box(BLOCK, x, y, z);
+    grid.finish()
+}
+
+/// The same cells with every node moved to `map` of its place; node sets are dropped.
+///
+/// # Errors
+///
+/// [`MeshError`] for a place that is not a number.
+pub fn mapped(mesh: &Mesh, map: impl FnMut([f64; 3]) -> [f64; 3]) -> Result<Mesh, MeshError> {
+    let mut moved = Mesh::new(mesh.nodes().iter().copied().map(map).collect())?;
+    for block in mesh.blocks() {
+        let cells = block.cells().flatten().copied().collect();
+        moved.add_block(&block.name, block.kind, cells)?;
+    }
+    Ok(moved)
+}
+
+/// Nodes and coordinates of the hexahedra of a block.
+pub fn cells<'a>(
+    mesh: &'a Mesh,
+    block: &'a Block,
+) -> impl Iterator<Item = ([NodeId; 20], [[f64; 3]; 20])> + 'a {
+    block.cells().map(|cell| {
+        let nodes: [NodeId; 20] = std::array::from_fn(|a| cell[a]);
+        (nodes, nodes.map(|n| mesh.nodes()[n]))
+    })
+}
+
+/// One element of the given law in every hexahedron of the mesh.
+///
+/// # Errors
+///
+/// [`ElementError::Jacobian`] for a distorted cell.
+pub fn hexahedra(
+    mesh: &Mesh,
+    rule: HexRule,
+    law: &Arc<dyn Material<Solid>>,
+) -> Result<Vec<Box<dyn Element>>, ElementError> {
+    let mut elements = Vec::new();
+    for block in mesh.blocks().iter().filter(|b| b.kind == CellKind::Hex20) {
+        elements.extend(hexahedra_of(mesh, block, rule, law)?);
+    }
+    Ok(elements)
+}
+
+/// One element of the given law in every cell of a block of hexahedra.
+///
+/// # Errors
+///
+/// [`ElementError::Jacobian`] for a distorted cell.
+pub fn hexahedra_of(
+    mesh: &Mesh,
+    block: &Block,
+    rule: HexRule,
+    law: &Arc<dyn Material<Solid>>,
+) -> Result<Vec<Box<dyn Element>>, ElementError> {
+    let element = |(nodes, coords)| {
+        let element = Hex20::new(nodes, &coords, rule, Arc::clone(law), BandWidth::CubeRoot)?;
+        Ok(Box::new(element) as Box<dyn Element>)
+    };
+    cells(mesh, block).map(element).collect()
+}
+
+/// Faces of hexahedra all of whose nodes satisfy `test`: nodes in the order of an outward quadrilateral.
+pub fn faces(mesh: &Mesh, test: impl Fn([f64; 3]) -> bool) -> Vec<[NodeId; 8]> {
+    let hexahedra = mesh.blocks().iter().filter(|b| b.kind == CellKind::Hex20);
+    hexahedra
+        .flat_map(Block::cells)
+        .flat_map(|cell| hex20::FACES.map(|face| face.map(|a| cell[a])))
+        .filter(|face| face.iter().all(|&n| test(mesh.nodes()[n])))
+        .collect()
+}
+
+/// Nodes that satisfy `test`.
+pub fn nodes_where(mesh: &Mesh, test: impl Fn([f64; 3]) -> bool) -> Vec<NodeId> {
+    let all = mesh.nodes().iter().enumerate();
+    all.filter(|(_, x)| test(**x)).map(|(n, _)| n).collect()
+}
+
+/// Straight-sided 20-node hexahedra from the corners of 8-node ones, VTK order: mid-side nodes are put in the
+/// middle of the edges, shared where edges are.
+///
+/// # Errors
+///
+/// [`MeshError`] for a corner that does not exist or is not a number.
+pub fn quadratic(corners: &[[f64; 3]], cells: &[[usize; 8]]) -> Result<Mesh, MeshError> {
+    let mut nodes = corners.to_vec();
+    let mut middle: HashMap<[usize; 2], NodeId> = HashMap::new();
+    let mut connectivity = Vec::with_capacity(20 * cells.len());
+    for cell in cells {
+        connectivity.extend(cell);
+        for [a, b] in EDGES.map(|edge| edge.map(|c| cell[c])) {
+            let key = [a.min(b), a.max(b)];
+            connectivity.push(*middle.entry(key).or_insert_with(|| {
+                let (p, q) = (corners[a], corners[b]);
+                nodes.push(std::array::from_fn(|k| p[k].midpoint(q[k])));
+                nodes.len() - 1
+            }));
+        }
+    }
+    let mut mesh = Mesh::new(nodes)?;
+    mesh.add_block(BLOCK, CellKind::Hex20, connectivity)?;
+    Ok(mesh)
+}
+
+/// n x n 8-node quadrilaterals over the unit square, every node moved to `map` of its place.
+///
+/// # Errors
+///
+/// [`MeshError`] for a place that is not a number.
+pub fn quadrilaterals(n: usize, map: impl Fn(f64, f64) -> [f64; 2]) -> Result<Mesh, MeshError> {
+    let side = 2 * n + 1;
+    let mut nodes = Vec::new();
+    let mut number = vec![0; side * side];
+    for j in 0..side {
+        for i in (0..side).filter(|i| i % 2 == 0 || j % 2 == 0) {
+            number[j * side + i] = nodes.len();
+            let [x, y] = map(i as f64 / (2 * n) as f64, j as f64 / (2 * n) as f64);
+            nodes.push([x, y, 0.0]);
+        }
+    }
+    let mut connectivity = Vec::with_capacity(8 * n * n);
+    for j in (0..side - 1).step_by(2) {
+        for i in (0..side - 1).step_by(2) {
+            let half_steps = quad8::NODES.map(|[s, t]| [(s + 1.0) as usize, (t + 1.0) as usize]);
+            connectivity.extend(half_steps.map(|[a, b]| number[(j + b) * side + i + a]));
+        }
+    }
+    let mut mesh = Mesh::new(nodes)?;
+    mesh.add_block(BLOCK, CellKind::Quad8, connectivity)?;
+    Ok(mesh)
+}

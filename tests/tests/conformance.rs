@@ -1,0 +1,99 @@
+//! Contract of every element with elastic, plastic and cracking laws: rigid-body motions, balance of the nodal forces,
+//! repeatability, stiffness against finite differences.
+//!
+//! Source: the contract in `fe_core::element`. Targets: the tolerances of `fe_core::testing::ElementCheck`.
+
+use std::sync::Arc;
+
+use fe_core::element::Element;
+use fe_core::kinematics::{Axial, Solid};
+use fe_core::material::Material;
+use fe_core::mesh::{CellKind, Mesh};
+use fe_core::shape::{hex20, quad8};
+use fe_core::testing::{ElementCheck, check_element};
+use fe_elements::{BandWidth, Bar, Dowel, Hex20, HexRule, Quad8, QuadRule, embed};
+use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
+use fe_materials::{Biso, Elastic, VonMises};
+
+/// A distorted hexahedron of about 50 mm.
+fn hexahedron() -> [[f64; 3]; 20] {
+    hex20::NODES.map(|[x, y, z]| {
+        [
+            25.0 * x + 2.0 * y * z,
+            24.0 * y + 1.5 * x * x,
+            26.0 * z - x * y,
+        ]
+    })
+}
+
+fn solids() -> [Arc<dyn Material<Solid>>; 3] {
+    let concrete = FixedCrackParameters::from_strength(38.0, 2.9, 33_000.0);
+    [
+        Arc::new(Elastic::new(30_000.0, 0.2).unwrap()),
+        Arc::new(VonMises::new(30_000.0, 0.2, 15.0, 20.0).unwrap()),
+        Arc::new(FixedCrack::new(concrete, None).unwrap()),
+    ]
+}
+
+/// Hexahedra with both rules.
+#[test]
+fn hexahedra() {
+    let coords = hexahedron();
+    for law in solids() {
+        for rule in [HexRule::Reduced, HexRule::Full] {
+            let nodes = std::array::from_fn(|a| a);
+            let law = Arc::clone(&law);
+            let name = law.name();
+            let element = Hex20::new(nodes, &coords, rule, law, BandWidth::CubeRoot).unwrap();
+            let check = ElementCheck {
+                paths: 2,
+                ..ElementCheck::new(0.05)
+            };
+            let report = check_element(&element, &coords, &check);
+            assert_eq!(report.expect(name).motions, 6);
+        }
+    }
+}
+
+/// Bars with and without dowel action, in a distorted host.
+#[test]
+fn embedded_bars() {
+    let coords = hexahedron();
+    let mut mesh = Mesh::new(coords.to_vec()).unwrap();
+    mesh.add_block("host", CellKind::Hex20, (0..20).collect())
+        .unwrap();
+    let laws: [Arc<dyn Material<Axial>>; 2] = [
+        Arc::new(Elastic::new(200e3, 0.0).unwrap()),
+        Arc::new(Biso::hot_rolled(200e3, 460.0, 2000.0).unwrap()),
+    ];
+    for law in laws {
+        let dowel = Dowel::he_kwan(16.0, 38.0, 200e3, 50.0, [0.0, 0.0, 1.0]).unwrap();
+        for dowel in [None, Some(dowel)] {
+            let bar = Bar {
+                name: "bar".into(),
+                polyline: vec![[-18.0, -15.0, -17.0], [3.0, 5.0, 1.0], [15.0, 4.0, 18.0]],
+                area_mm2: 201.0,
+                law: Arc::clone(&law),
+                dowel,
+            };
+            let elements = embed(&[bar], &mesh, &["host"]).unwrap();
+            assert_eq!(elements.len(), 1);
+            let element: &dyn Element = &elements[0];
+            check_element(element, &coords, &ElementCheck::new(0.1)).unwrap();
+        }
+    }
+}
+
+/// Quadrilaterals with both rules.
+#[test]
+fn quadrilaterals() {
+    let plane = quad8::NODES.map(|[x, y]| [25.0 * x + 2.0 * x * y, 24.0 * y + x]);
+    let coords = plane.map(|[x, y]| [x, y, 0.0]);
+    let law = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
+    for rule in [QuadRule::Reduced, QuadRule::Full] {
+        let nodes = std::array::from_fn(|a| a);
+        let element = Quad8::new(nodes, &plane, 10.0, rule, law.clone()).unwrap();
+        let report = check_element(&element, &coords, &ElementCheck::new(0.05)).unwrap();
+        assert_eq!(report.motions, 3);
+    }
+}

@@ -1,0 +1,207 @@
+//! EL-09, EL-09b, EL-10: straight bars embedded in hexahedra.
+//!
+//! Source: statics. A bar of force N along t between a and b does the work N t . (v_b - v_a) on any displacement field v.
+
+use std::sync::Arc;
+
+use fe_core::element::{Element, ElementSystem, EvaluationContext};
+use fe_core::grid::GridBuilder;
+use fe_core::kinematics::Axial;
+use fe_core::material::Material;
+use fe_core::material::Operator;
+use fe_core::mesh::Mesh;
+use fe_core::shape::hex20;
+use fe_elements::{Bar, EmbeddedBar, embed};
+use fe_materials::Elastic;
+use fe_tests::laws::Tendon;
+use fe_tests::mesh::{BLOCK, boxes, mapped};
+use nalgebra::{Matrix3, Vector3};
+
+const AREA: f64 = 201.0;
+const YOUNG: f64 = 200e3;
+
+/// Ends of an oblique bar that crosses four of the eight cells.
+const A: [f64; 3] = [4.0, 7.0, 11.0];
+const B: [f64; 3] = [93.0, 61.0, 83.0];
+
+/// Eight cells of a cube of 100 mm, `warp` mm distorted inside.
+fn cube(warp: f64) -> Mesh {
+    let line = [0.0, 45.0, 100.0];
+    let straight = boxes(&line, &line, &line).unwrap();
+    mapped(&straight, |x| {
+        let wave = |k: usize| (0.031 * x[k]).sin() * (0.047 * x[(k + 1) % 3]).cos();
+        let inside = x.iter().all(|&c| c > 0.0 && c < 100.0);
+        std::array::from_fn(|k| x[k] + if inside { warp * wave(k) } else { 0.0 })
+    })
+    .unwrap()
+}
+
+fn bars(mesh: &Mesh, ends: [[f64; 3]; 2], law: Arc<dyn Material<Axial>>) -> Vec<EmbeddedBar> {
+    let bar = Bar {
+        name: "oblique".into(),
+        polyline: ends.to_vec(),
+        area_mm2: AREA,
+        law,
+        dowel: None,
+    };
+    embed(&[bar], mesh, &[BLOCK]).unwrap()
+}
+
+/// Nodal forces of the bars under the nodal displacements `u`.
+fn forces(mesh: &Mesh, bars: &[EmbeddedBar], u: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+    let mut total = vec![Vector3::zeros(); mesh.nodes().len()];
+    let ctx = EvaluationContext::new(Operator::None);
+    for bar in bars {
+        let local: Vec<f64> = bar.nodes().iter().flat_map(|&n| u[n].data.0[0]).collect();
+        let mut force = [0.0; 60];
+        let out = ElementSystem {
+            force: &mut force,
+            stiffness: &mut [],
+        };
+        bar.evaluate(&local, &[], &mut [], &ctx, out).unwrap();
+        for (&node, f) in bar.nodes().iter().zip(force.chunks_exact(3)) {
+            total[node] += Vector3::from_column_slice(f);
+        }
+    }
+    total
+}
+
+fn work(forces: &[Vector3<f64>], v: &[Vector3<f64>]) -> f64 {
+    forces.iter().zip(v).map(|(f, v)| f.dot(v)).sum()
+}
+
+/// A nodal field without pattern.
+fn irregular(mesh: &Mesh, seed: usize) -> Vec<Vector3<f64>> {
+    let value = |i: usize| (1.7 * (i * i) as f64 + seed as f64).sin();
+    (0..mesh.nodes().len())
+        .map(|n| Vector3::from_fn(|k, _| value(3 * n + k)))
+        .collect()
+}
+
+/// Value of a nodal field at a point of the mesh.
+fn field_at(mesh: &Mesh, v: &[Vector3<f64>], point: [f64; 3]) -> Vector3<f64> {
+    for cell in mesh.blocks()[0].cells() {
+        let coords = std::array::from_fn(|a| mesh.nodes()[cell[a]]);
+        if let Some(xi) =
+            hex20::inverse_map(&coords, point).filter(|xi| xi.iter().all(|c| c.abs() <= 1.0))
+        {
+            return hex20::shape(xi)
+                .0
+                .iter()
+                .zip(cell)
+                .map(|(n, &a)| *n * v[a])
+                .sum();
+        }
+    }
+    panic!("no cell at {point:?}");
+}
+
+/// EL-09, distorted hosts under a uniform displacement gradient. Targets: strain exact to rounding, no resultant force or
+/// moment, work N eps L within 1e-12.
+#[test]
+fn uniform_strain_is_exact_in_distorted_hosts() {
+    let mesh = cube(6.0);
+    let bars = bars(&mesh, [A, B], Arc::new(Elastic::new(YOUNG, 0.0).unwrap()));
+    assert_eq!(bars.len(), 4);
+    let gradient = Matrix3::new(1.0, -0.3, 0.4, 0.2, -0.5, 0.7, -0.6, 0.1, 0.8) * 1e-3;
+    let u: Vec<Vector3<f64>> = mesh
+        .nodes()
+        .iter()
+        .map(|x| gradient * Vector3::from(*x))
+        .collect();
+    let along = Vector3::from(B) - Vector3::from(A);
+    let t = along.normalize();
+    let strain = t.dot(&(gradient * t));
+    for bar in &bars {
+        let local: Vec<f64> = bar.nodes().iter().flat_map(|&n| u[n].data.0[0]).collect();
+        let mut check = |_, found: f64, _| assert!((found - strain).abs() < 1e-16, "{found}");
+        bar.strains(&local, &[], &mut check).unwrap();
+    }
+    let f = forces(&mesh, &bars, &u);
+    let normal = YOUNG * AREA * strain;
+    let resultant: Vector3<f64> = f.iter().sum();
+    let moment: Vector3<f64> = f
+        .iter()
+        .zip(mesh.nodes())
+        .map(|(f, x)| Vector3::from(*x).cross(f))
+        .sum();
+    assert!(resultant.norm() < 1e-12 * normal.abs());
+    assert!(moment.norm() < 1e-12 * normal.abs() * 100.0);
+    let exact = normal * strain * along.norm();
+    assert!((work(&f, &u) / exact - 1.0).abs() < 1e-12);
+}
+
+/// EL-09b, a bar of constant force on a field without pattern. Targets: work N t . (v_b - v_a) within 1e-12 in boxes,
+/// where two points per piece integrate the strain, and within 1e-3 in distorted hosts with four. A bar that is not cut at
+/// the faces of its hosts misses by more than half.
+#[test]
+fn every_piece_is_cut_at_the_faces() {
+    let t = (Vector3::from(B) - Vector3::from(A)).normalize();
+    let stress = 300.0;
+    for (warp, tolerance) in [(0.0, 1e-12), (6.0, 1e-3)] {
+        let mesh = cube(warp);
+        let bars = bars(&mesh, [A, B], Arc::new(Tendon { stress_mpa: stress }));
+        let rest = vec![Vector3::zeros(); mesh.nodes().len()];
+        let f = forces(&mesh, &bars, &rest);
+        for seed in 0..20 {
+            let v = irregular(&mesh, seed);
+            let ends = field_at(&mesh, &v, B) - field_at(&mesh, &v, A);
+            let exact = AREA * stress * t.dot(&ends);
+            let scale = AREA * stress;
+            let miss = (work(&f, &v) - exact).abs() / scale;
+            assert!(miss < tolerance, "warp {warp}, field {seed}: {miss:.1e}");
+        }
+    }
+}
+
+/// EL-10, a bar on an edge, or in a face, of the four cells around a line: whichever cells host it, force and work are the
+/// same, and never double. Target: N = E A eps at the ends for a uniform strain.
+#[test]
+fn shared_faces_and_edges_count_once() {
+    let length = [0.0, 40.0, 100.0];
+    let sides = [("low", [0.0, 30.0]), ("high", [30.0, 50.0])];
+    let mut grid = GridBuilder::new();
+    for (y_name, y) in &sides {
+        for (z_name, z) in &sides {
+            grid.add_box(&format!("{y_name} {z_name}"), &length, y, z);
+        }
+    }
+    let mesh = grid.finish().unwrap();
+    let blocks: Vec<&str> = mesh.blocks().iter().map(|b| b.name.as_str()).collect();
+    let embedded = |y: f64, hosts: &[&str]| {
+        let bar = Bar {
+            name: "edge".into(),
+            polyline: vec![[0.0, y, 30.0], [100.0, y, 30.0]],
+            area_mm2: AREA,
+            law: Arc::new(Elastic::new(YOUNG, 0.0).unwrap()),
+            dowel: None,
+        };
+        embed(&[bar], &mesh, hosts).unwrap()
+    };
+    // On the edge of all four, and in the face between "low low" and "low high".
+    for (y, around) in [(30.0, &blocks[..]), (12.0, &blocks[..2])] {
+        let u = irregular(&mesh, 3);
+        let v = irregular(&mesh, 4);
+        let all = work(&forces(&mesh, &embedded(y, &blocks), &u), &v);
+        for host in around {
+            let own = work(&forces(&mesh, &embedded(y, &[host]), &u), &v);
+            assert!(
+                (own - all).abs() < 1e-12 * YOUNG * AREA,
+                "{host}: {own} {all}"
+            );
+        }
+        let stretch: Vec<Vector3<f64>> = mesh
+            .nodes()
+            .iter()
+            .map(|x| Vector3::new(1e-3 * x[0], 0.0, 0.0))
+            .collect();
+        let f = forces(&mesh, &embedded(y, &blocks), &stretch);
+        let end: f64 = f
+            .iter()
+            .zip(mesh.nodes())
+            .filter(|(_, x)| x[0] == 100.0)
+            .map(|(f, _)| f.x)
+            .sum();
+        assert!((end / (YOUNG * AREA * 1e-3) - 1.0).abs() < 1e-12, "{end}");
+    }
+}
