@@ -10,7 +10,7 @@ use plotters::prelude::{BitMapBackend, DrawingBackend, IntoFont, SVGBackend};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, RGBColor, ShapeStyle, TextStyle, WHITE, register_font};
 
-use super::error::OutputError;
+use super::error::ResultsError;
 use super::folder::Folder;
 use super::palette::{GREY, INK};
 
@@ -32,7 +32,7 @@ pub type Drawn<DB> = Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::Err
 
 /// A picture that can be drawn on any backend.
 pub trait Picture {
-    /// Width and height \[pixels\].
+    /// Width and height (pixels).
     fn size(&self) -> (u32, u32);
 
     /// Draws on a white area.
@@ -46,8 +46,8 @@ pub trait Picture {
     ///
     /// # Errors
     ///
-    /// [`OutputError::Drawing`].
-    fn to_svg(&self) -> Result<String, OutputError> {
+    /// [`ResultsError::Drawing`].
+    fn to_svg(&self) -> Result<String, ResultsError> {
         use_font()?;
         let (width, height) = self.size();
         let (w, h) = (width * UNITS, height * UNITS);
@@ -65,8 +65,8 @@ pub trait Picture {
     ///
     /// # Errors
     ///
-    /// [`OutputError::Drawing`].
-    fn write_png(&self, path: &Path) -> Result<(), OutputError> {
+    /// [`ResultsError::Drawing`].
+    fn write_png(&self, path: &Path) -> Result<(), ResultsError> {
         use_font()?;
         let (w, h) = (self.size().0 * UNITS, self.size().1 * UNITS);
         let mut fine = vec![0; 3 * w as usize * h as usize];
@@ -81,8 +81,8 @@ pub trait Picture {
     ///
     /// # Errors
     ///
-    /// [`OutputError::Drawing`].
-    fn paint<DB: DrawingBackend>(&self, area: &Area<'_, DB>) -> Result<(), OutputError> {
+    /// [`ResultsError::Drawing`].
+    fn paint<DB: DrawingBackend>(&self, area: &Area<'_, DB>) -> Result<(), ResultsError> {
         area.fill(&WHITE).map_err(failed)?;
         self.draw(area).map_err(failed)?;
         area.present().map_err(failed)
@@ -92,8 +92,8 @@ pub trait Picture {
     ///
     /// # Errors
     ///
-    /// [`OutputError`].
-    fn save_svg(&self, folder: &Folder, name: &str) -> Result<(), OutputError> {
+    /// [`ResultsError`].
+    fn save_svg(&self, folder: &Folder, name: &str) -> Result<(), ResultsError> {
         let text = self.to_svg()?;
         folder.replace(&format!("{name}.svg"), |out| out.write_all(text.as_bytes()))
     }
@@ -102,18 +102,18 @@ pub trait Picture {
     ///
     /// # Errors
     ///
-    /// [`OutputError`].
-    fn save_png(&self, folder: &Folder, name: &str) -> Result<(), OutputError> {
+    /// [`ResultsError`].
+    fn save_png(&self, folder: &Folder, name: &str) -> Result<(), ResultsError> {
         folder.replace_by_path(&format!("{name}.png"), |path| Ok(self.write_png(path)?))
     }
 }
 
-/// Drawing units of a length \[pixels\].
+/// Drawing units of a length (pixels).
 pub fn units(pixels: f64) -> i32 {
     (pixels * f64::from(UNITS)).round() as i32
 }
 
-/// A line of a width \[pixels\].
+/// A line of a width (pixels).
 pub fn line(colour: RGBColor, width: f64) -> ShapeStyle {
     colour.stroke_width(units(width).unsigned_abs())
 }
@@ -123,7 +123,7 @@ pub fn outline([a, b]: [(i32, i32); 2], style: ShapeStyle) -> PathElement<(i32, 
     PathElement::new(vec![a, (b.0, a.1), b, (a.0, b.1), a], style)
 }
 
-/// Text of a size \[pixels\], placed by its middle left.
+/// Text of a size (pixels), placed by its middle left.
 pub fn text(colour: RGBColor, size: f64) -> TextStyle<'static> {
     (FONT, units(size))
         .into_font()
@@ -173,13 +173,13 @@ pub fn draw_heading<DB: DrawingBackend>(
         .try_for_each(|(row, y)| area.draw(&Text::new(row.as_str(), (left, y), text(GREY, 13.0))))
 }
 
-fn use_font() -> Result<(), OutputError> {
+fn use_font() -> Result<(), ResultsError> {
     register_font(FONT, FontStyle::Normal, DEJAVU_SANS)
-        .map_err(|_| OutputError::Drawing("the embedded font is damaged".to_owned()))
+        .map_err(|_| ResultsError::Drawing("the embedded font is damaged".to_owned()))
 }
 
-fn failed(error: impl Display) -> OutputError {
-    OutputError::Drawing(error.to_string())
+fn failed(error: impl Display) -> ResultsError {
+    ResultsError::Drawing(error.to_string())
 }
 
 /// Mean colour of squares of [`UNITS_PER_DOT`] units, as RGB rows, with the size of the result.

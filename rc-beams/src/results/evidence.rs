@@ -5,9 +5,9 @@ use fe_core::element::PointSample;
 /// An integration point of the concrete.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ConcretePoint {
-    /// Position \[mm\].
+    /// Position (mm).
     pub position: [f64; 3],
-    /// Volume it stands for \[mm3\].
+    /// Volume it stands for (mm3).
     pub volume: f64,
     /// Largest crack strain.
     pub crack_strain: f64,
@@ -35,7 +35,7 @@ impl From<&PointSample<'_>> for ConcretePoint {
 pub struct BarReach {
     /// Name of the bar.
     pub bar: String,
-    /// Where \[mm\].
+    /// Where (mm).
     pub x_mm: f64,
     /// Tensile stress over yield stress.
     pub utilisation: f64,
@@ -57,9 +57,9 @@ pub struct Snapshot {
 pub struct ShearSpan {
     /// Name, as in "right shear span".
     pub name: String,
-    /// Left end \[mm\].
+    /// Left end (mm).
     pub from_mm: f64,
-    /// Right end \[mm\].
+    /// Right end (mm).
     pub to_mm: f64,
 }
 
@@ -68,14 +68,14 @@ pub struct ShearSpan {
 pub struct Layout {
     /// Shear spans; what lies between them are zones of bending.
     pub shear_spans: Vec<ShearSpan>,
-    /// Height of the section \[mm\].
+    /// Height of the section (mm).
     pub height_mm: f64,
     /// Stirrups in the beam.
     pub stirrups: usize,
 }
 
 impl Layout {
-    /// Index of the shear span that holds `x` \[mm\].
+    /// Index of the shear span that holds `x` (mm).
     pub fn span_at(&self, x: f64) -> Option<usize> {
         let mut spans = self.shear_spans.iter();
         spans.position(|span| (span.from_mm..=span.to_mm).contains(&x))

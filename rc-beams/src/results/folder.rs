@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile};
 
-use super::error::OutputError;
+use super::error::ResultsError;
+use crate::output::{self, OutputError};
 
 /// Files written at the end of a run; those of an earlier run would contradict the tables of this one.
 const WRITTEN_AT_THE_END: [&str; 5] = [
@@ -29,20 +30,16 @@ impl Folder {
     ///
     /// # Errors
     ///
-    /// [`OutputError::Folder`] when the folder cannot be made or written.
-    pub fn create(root: &Path, name: &str) -> Result<Self, OutputError> {
-        let path = root.join(name);
-        let prepare = || {
-            fs::create_dir_all(&path)?;
-            NamedTempFile::new_in(&path)?.close()?;
-            WRITTEN_AT_THE_END
-                .iter()
-                .try_for_each(|file| remove_if_there(&path.join(file)))
+    /// [`ResultsError::Output`] when the folder cannot be made or written.
+    pub fn create(root: &Path, name: &str) -> Result<Self, ResultsError> {
+        let folder = Self {
+            path: root.join(name),
         };
-        match prepare() {
-            Ok(()) => Ok(Self { path }),
-            Err(source) => Err(OutputError::Folder { path, source }),
+        output::prepare(&folder.path)?;
+        for file in WRITTEN_AT_THE_END {
+            remove_if_there(&folder.path.join(file)).map_err(|e| folder.error(file, e))?;
         }
+        Ok(folder)
     }
 
     /// Where it is.
@@ -54,22 +51,21 @@ impl Folder {
     ///
     /// # Errors
     ///
-    /// [`OutputError::File`].
-    pub fn start(&self, name: &str) -> Result<File, OutputError> {
-        let path = self.path.join(name);
-        File::create(&path).map_err(|source| OutputError::File { path, source })
+    /// [`ResultsError::Output`].
+    pub fn start(&self, name: &str) -> Result<File, ResultsError> {
+        File::create(self.path.join(name)).map_err(|e| self.error(name, e))
     }
 
     /// Writes a file as a whole: readers see the old content or the new, never a part.
     ///
     /// # Errors
     ///
-    /// [`OutputError::File`], also for what `write` returns; the old content stays.
+    /// [`ResultsError::Output`], also for what `write` returns; the old content stays.
     pub fn replace(
         &self,
         name: &str,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), OutputError> {
+    ) -> Result<(), ResultsError> {
         self.replace_by_path(name, |path| {
             let mut out = BufWriter::new(File::create(path)?);
             write(&mut out)?;
@@ -82,20 +78,25 @@ impl Folder {
     ///
     /// # Errors
     ///
-    /// [`OutputError::File`], also for what `write` returns; the old content stays.
+    /// [`ResultsError::Output`], also for what `write` returns; the old content stays.
     pub fn replace_by_path(
         &self,
         name: &str,
         write: impl FnOnce(&Path) -> io::Result<()>,
-    ) -> Result<(), OutputError> {
-        let path = self.path.join(name);
+    ) -> Result<(), ResultsError> {
         let replace = || {
             let draft = self.draft(name)?;
             write(draft.path())?;
-            draft.persist(&path)?;
+            draft.persist(self.path.join(name))?;
             Ok(())
         };
-        replace().map_err(|source| OutputError::File { path, source })
+        replace().map_err(|e| self.error(name, e))
+    }
+
+    /// What a file of the folder suffers from.
+    fn error(&self, name: &str, source: io::Error) -> ResultsError {
+        let path = self.path.join(name);
+        OutputError { path, source }.into()
     }
 
     /// A file to be renamed to `name`, as readable by others as any new file.
@@ -126,7 +127,7 @@ mod tests {
         let error = Folder::create(file.path(), "A-SO3-1").unwrap_err();
         assert!(error.to_string().contains("A-SO3-1"), "{error}");
         let help = miette::Diagnostic::help(&error).unwrap().to_string();
-        assert!(help.contains("-o DIR"), "{help}");
+        assert!(help.contains("--output"), "{help}");
     }
 
     #[test]
@@ -140,7 +141,11 @@ mod tests {
             out.write_all(b"half of the new")?;
             Err(io::Error::other("disk full"))
         });
-        assert!(failed.unwrap_err().to_string().contains("disk full"));
+        assert!(
+            io::Error::from(failed.unwrap_err())
+                .to_string()
+                .contains("disk full")
+        );
         let files: Vec<_> = fs::read_dir(folder.path()).unwrap().collect();
         assert_eq!(files.len(), 1);
         assert_eq!(

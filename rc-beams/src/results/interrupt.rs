@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::error::OutputError;
+use super::error::ResultsError;
 use crate::exit::Exit;
 
 /// Tells a run that its user wants it to stop.
@@ -17,8 +17,8 @@ impl Interrupt {
     ///
     /// # Errors
     ///
-    /// [`OutputError::Signal`] when the handler cannot be installed.
-    pub fn install() -> Result<Self, OutputError> {
+    /// [`ResultsError::Signal`] when the handler cannot be installed.
+    pub fn install() -> Result<Self, ResultsError> {
         let interrupt = Self::default();
         let flag = Arc::clone(&interrupt.0);
         ctrlc::set_handler(move || {

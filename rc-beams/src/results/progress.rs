@@ -15,9 +15,9 @@ const BAR_TICKS: f64 = 1000.0;
 pub struct Status {
     /// Step.
     pub step: usize,
-    /// Deflection \[mm\].
+    /// Deflection (mm).
     pub deflection_mm: f64,
-    /// Load \[kN\].
+    /// Load (kN).
     pub load_kn: f64,
     /// Iterations of the step.
     pub iterations: usize,

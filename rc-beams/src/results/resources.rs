@@ -22,12 +22,12 @@ impl Resources {
         }
     }
 
-    /// Processor time of all threads since the start \[s\], user and system.
+    /// Processor time of all threads since the start (s), user and system.
     pub fn cpu_s(&self) -> Option<f64> {
         Some(process_cpu_s()? - self.cpu_at_start_s?)
     }
 
-    /// Largest resident set since the start \[MB, 10^6 bytes\].
+    /// Largest resident set since the start (MB, 10^6 bytes).
     pub fn max_rss_mb(&self) -> Option<f64> {
         peak_mb(&fs::read_to_string("/proc/self/status").ok()?)
     }

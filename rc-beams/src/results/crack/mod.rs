@@ -12,7 +12,7 @@ use super::drawing::{Area, Drawn, Picture, draw_heading, line, outline, placed, 
 use super::evidence::ConcretePoint;
 use super::palette::{BLUE, FAINT, GREEN, GREY, INK, sequential};
 
-/// Height of heading and load arrows, and of axis, legend and colour bar \[pixels\].
+/// Height of heading and load arrows, and of axis, legend and colour bar (pixels).
 const ABOVE: f64 = 106.0;
 const BELOW: f64 = 112.0;
 const SIDE: f64 = 36.0;
@@ -119,7 +119,7 @@ impl CrackView<'_> {
     }
 }
 
-/// A triangle with its tip at a point, `height` downwards \[pixels\].
+/// A triangle with its tip at a point, `height` downwards (pixels).
 fn triangle(
     (x, y): (i32, i32),
     half_width: f64,

@@ -27,7 +27,7 @@ pub struct Curve<'a> {
     pub capacity: &'a Capacity,
     /// Trust.
     pub verdict: &'a Verdict,
-    /// Largest load of the laboratory test \[kN\], if known.
+    /// Largest load of the laboratory test (kN), if known.
     pub test_load_kn: Option<f64>,
 }
 

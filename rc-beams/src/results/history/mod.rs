@@ -6,7 +6,7 @@ use fe_solver::capacity::PathPoint;
 use fe_solver::recorder::IterationRecord;
 
 use self::table::{Table, number};
-use super::error::OutputError;
+use super::error::ResultsError;
 use super::folder::Folder;
 
 /// One row of `history.csv`: an accepted step; self weight is step 0. Loads and reactions of the whole
@@ -15,13 +15,13 @@ use super::folder::Folder;
 pub struct StepRow {
     /// Step, counted from 1; 0 is self weight.
     pub step: usize,
-    /// Deflection \[mm\].
+    /// Deflection (mm).
     pub deflection_mm: f64,
-    /// Load P, net of self weight \[kN\].
+    /// Load P, net of self weight (kN).
     pub load_kn: f64,
-    /// Work-conjugate load P* \[kN\]; none for self weight.
+    /// Work-conjugate load P* (kN); none for self weight.
     pub p_star_kn: Option<f64>,
-    /// Vertical reaction of each support, from left to right \[kN\].
+    /// Vertical reaction of each support, from left to right (kN).
     pub reactions_kn: Vec<f64>,
     /// Negative pivots of the last factorisation.
     pub negative_pivots: usize,
@@ -37,7 +37,7 @@ pub struct StepRow {
     pub held: usize,
     /// Accepted without meeting the criterion.
     pub flagged: bool,
-    /// Length of the step in the imposed displacement \[mm\].
+    /// Length of the step in the imposed displacement (mm).
     pub step_mm: f64,
     /// Numeric factorisations so far.
     pub factorisations: usize,
@@ -126,12 +126,12 @@ impl History {
     ///
     /// # Errors
     ///
-    /// [`OutputError::File`].
+    /// [`ResultsError::Output`].
     pub fn create(
         folder: &Folder,
         supports: &[String],
         gauges: &[String],
-    ) -> Result<Self, OutputError> {
+    ) -> Result<Self, ResultsError> {
         let (before, after) = STEP_COLUMNS;
         let reactions = supports.iter().map(String::as_str);
         let steps = before.into_iter().chain(reactions).chain(after);
@@ -148,8 +148,8 @@ impl History {
     ///
     /// # Errors
     ///
-    /// [`OutputError::File`].
-    pub fn iteration(&mut self, record: &IterationRecord) -> Result<(), OutputError> {
+    /// [`ResultsError::Output`].
+    pub fn iteration(&mut self, record: &IterationRecord) -> Result<(), ResultsError> {
         self.iterations.row([
             record.step.to_string(),
             record.attempt.to_string(),
@@ -165,8 +165,8 @@ impl History {
     ///
     /// # Errors
     ///
-    /// [`OutputError::File`], also when reactions or readings do not match the columns.
-    pub fn step(&mut self, row: &StepRow, readings: &[f64]) -> Result<(), OutputError> {
+    /// [`ResultsError::Output`], also when reactions or readings do not match the columns.
+    pub fn step(&mut self, row: &StepRow, readings: &[f64]) -> Result<(), ResultsError> {
         self.steps.row(row.cells())?;
         let measured = [row.deflection_mm, row.load_kn];
         self.gauges
@@ -178,8 +178,8 @@ impl History {
     ///
     /// # Errors
     ///
-    /// [`OutputError::File`].
-    pub fn flush(&mut self) -> Result<(), OutputError> {
+    /// [`ResultsError::Output`].
+    pub fn flush(&mut self) -> Result<(), ResultsError> {
         let Self {
             steps,
             gauges,

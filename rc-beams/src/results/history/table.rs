@@ -6,7 +6,8 @@ use std::path::PathBuf;
 
 use csv::Writer;
 
-use crate::results::error::OutputError;
+use crate::output::OutputError;
+use crate::results::error::ResultsError;
 use crate::results::folder::Folder;
 
 /// A CSV file with its path.
@@ -21,7 +22,7 @@ impl Table {
         folder: &Folder,
         name: &str,
         columns: impl IntoIterator<Item = &'a str>,
-    ) -> Result<Self, OutputError> {
+    ) -> Result<Self, ResultsError> {
         let mut table = Self {
             path: folder.path().join(name),
             writer: Writer::from_writer(folder.start(name)?),
@@ -34,21 +35,19 @@ impl Table {
     pub(super) fn row<C: AsRef<[u8]>>(
         &mut self,
         cells: impl IntoIterator<Item = C>,
-    ) -> Result<(), OutputError> {
+    ) -> Result<(), ResultsError> {
         let written = self.writer.write_record(cells);
         written.map_err(|e| self.error(e.into()))
     }
 
-    pub(super) fn flush(&mut self) -> Result<(), OutputError> {
+    pub(super) fn flush(&mut self) -> Result<(), ResultsError> {
         let flushed = self.writer.flush();
         flushed.map_err(|e| self.error(e))
     }
 
-    fn error(&self, source: io::Error) -> OutputError {
-        OutputError::File {
-            path: self.path.clone(),
-            source,
-        }
+    fn error(&self, source: io::Error) -> ResultsError {
+        let path = self.path.clone();
+        OutputError { path, source }.into()
     }
 }
 

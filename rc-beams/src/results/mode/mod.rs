@@ -3,7 +3,7 @@
 //! The evidence is what changes between the peak and the end of the drop after it, together with the
 //! state at the peak. Measures:
 //!
-//! - *growth of cracks* \[mm3\]: sum of volume times increase of crack strain over the drop. A crack is
+//! - *growth of cracks* (mm3): sum of volume times increase of crack strain over the drop. A crack is
 //!   diagonal if its normal is inclined by 25 to 70 degrees to the beam axis, vertical below that; steeper
 //!   normals belong to cracks along the bars, which accompany any mode and are not counted. The *diagonal
 //!   share* is that of the diagonal cracks in shear spans in the sum of these and of the vertical cracks
@@ -31,7 +31,7 @@ use serde::{Serialize, Serializer};
 
 use super::evidence::{BarReach, ConcretePoint, Layout, Snapshot};
 
-/// Angles between crack normal and beam axis that make a crack diagonal \[degrees\].
+/// Angles between crack normal and beam axis that make a crack diagonal (degrees).
 const DIAGONAL_DEG: std::ops::RangeInclusive<f64> = 25.0..=70.0;
 /// Diagonal share from which diagonal cracks govern.
 const DIAGONAL_GOVERNS: f64 = 0.6;
@@ -210,7 +210,7 @@ impl fmt::Display for Measures {
     }
 }
 
-/// Angle between crack normal and beam axis \[degrees\]; 90 without a crack.
+/// Angle between crack normal and beam axis (degrees); 90 without a crack.
 fn inclination_deg(point: &ConcretePoint) -> f64 {
     point.crack_normal[0].abs().min(1.0).acos().to_degrees()
 }

@@ -6,7 +6,7 @@ use fe_solver::capacity::{Capacity, PathPoint, Verdict};
 use fe_solver::stage::{Counters, PhaseTimes};
 use serde::Serialize;
 
-use super::error::OutputError;
+use super::error::ResultsError;
 use super::folder::Folder;
 use super::mode::Diagnosis;
 
@@ -28,17 +28,17 @@ pub struct Summary {
     /// Mode of failure.
     #[serde(flatten)]
     pub diagnosis: Diagnosis,
-    /// Largest load of the laboratory test \[kN\].
+    /// Largest load of the laboratory test (kN).
     pub test_load_kn: Option<f64>,
     /// Peak load over that of the test.
     pub ratio_model_to_test: Option<f64>,
-    /// Sum of the vertical reactions under self weight \[kN\], whole width.
+    /// Sum of the vertical reactions under self weight (kN), whole width.
     pub self_weight_reaction_kn: f64,
-    /// Wall time \[s\].
+    /// Wall time (s).
     pub wall_s: WallTime,
-    /// Processor time of all threads \[s\].
+    /// Processor time of all threads (s).
     pub cpu_s: Option<f64>,
-    /// Largest resident set \[MB\].
+    /// Largest resident set (MB).
     pub max_rss_mb: Option<f64>,
 }
 
@@ -96,13 +96,13 @@ impl Work {
 /// What the load path says.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Figures {
-    /// Largest load before the first fall of 20 % from the running maximum, or of the whole path \[kN\].
+    /// Largest load before the first fall of 20 % from the running maximum, or of the whole path (kN).
     pub peak_load_kn: f64,
-    /// Deflection there \[mm\].
+    /// Deflection there (mm).
     pub deflection_at_peak_mm: f64,
-    /// First local maximum followed by a fall of 5 % \[kN\].
+    /// First local maximum followed by a fall of 5 % (kN).
     pub first_drop_load_kn: Option<f64>,
-    /// Deflection there \[mm\].
+    /// Deflection there (mm).
     pub first_drop_deflection_mm: Option<f64>,
     /// Largest fall after the peak, relative to it, before the load exceeds it again.
     pub post_peak_drop: f64,
@@ -112,7 +112,7 @@ pub struct Figures {
     pub max_residual: Option<f64>,
     /// Steps up to the peak accepted without meeting the criterion.
     pub flagged_steps: usize,
-    /// Work-conjugate load less load at the last regular step up to the peak \[kN\].
+    /// Work-conjugate load less load at the last regular step up to the peak (kN).
     pub p_star_gap_kn: Option<f64>,
     /// How far the peak can be relied on: high, limited or low.
     pub trust: String,
@@ -141,7 +141,7 @@ impl Figures {
     }
 }
 
-/// Wall time by phase \[s\].
+/// Wall time by phase (s).
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct WallTime {
     /// From reading the specimen to the last file but this one.
@@ -173,8 +173,8 @@ impl Summary {
     ///
     /// # Errors
     ///
-    /// [`OutputError::File`].
-    pub fn write(&self, folder: &Folder) -> Result<(), OutputError> {
+    /// [`ResultsError::Output`].
+    pub fn write(&self, folder: &Folder) -> Result<(), ResultsError> {
         folder.replace("summary.json", |out| {
             serde_json::to_writer_pretty(&mut *out, self).map_err(io::Error::from)?;
             out.write_all(b"\n")
