@@ -60,7 +60,7 @@ fn path() -> Vec<PathPoint> {
             work_conjugate_load: load(w) * (1.0 + 0.012 * (9.0 * w).sin()),
             residual: 8e-4,
             flagged: i == 70 || i == 71,
-            jump: i == 54,
+            held: i == 54,
         }
     };
     (0..=112).map(point).collect()
