@@ -41,9 +41,9 @@ pub struct BarReach {
     pub utilisation: f64,
 }
 
-/// A state of the beam.
+/// A state of the beam, as far as its failure is concerned.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Snapshot {
+pub struct Evidence {
     /// Concrete, the same points in the same order in every snapshot of a beam.
     pub concrete: Vec<ConcretePoint>,
     /// Longitudinal bars, one entry per bar and stretch.

@@ -20,7 +20,7 @@ fn layout() -> Layout {
 }
 
 /// 30 points at mid-height, 100 mm apart, with a vertical crack each and a bar below yield.
-fn peak() -> Snapshot {
+fn peak() -> Evidence {
     let point = |i: u32| ConcretePoint {
         position: [50.0 + 100.0 * f64::from(i), 150.0, 37.5],
         volume: 1e6,
@@ -28,7 +28,7 @@ fn peak() -> Snapshot {
         crack_normal: [1.0, 0.0, 0.0],
         crushing: 0.0,
     };
-    Snapshot {
+    Evidence {
         concrete: (0..30).map(point).collect(),
         bars: vec![
             BarReach {
@@ -47,13 +47,13 @@ fn peak() -> Snapshot {
 }
 
 /// Opens a crack at point `i` whose normal is inclined by `degrees`.
-fn open(state: &mut Snapshot, i: usize, degrees: f64) {
+fn open(state: &mut Evidence, i: usize, degrees: f64) {
     let (sin, cos) = degrees.to_radians().sin_cos();
     state.concrete[i].crack_strain += 0.01;
     state.concrete[i].crack_normal = [cos, sin, 0.0];
 }
 
-fn mode(peak: &Snapshot, end: &Snapshot) -> FailureMode {
+fn mode(peak: &Evidence, end: &Evidence) -> FailureMode {
     Diagnosis::of(&layout(), peak, end, 0.3).mode
 }
 
@@ -90,6 +90,17 @@ fn inclined_cracks_between_the_loads_are_no_shear() {
     let (before, mut end) = (peak(), peak());
     open(&mut end, 15, 45.0);
     assert_ne!(mode(&before, &end), FailureMode::DiagonalTension);
+}
+
+#[test]
+fn vertical_cracks_in_a_shear_span_are_flexure_only_where_bars_yield() {
+    let (mut before, mut end) = (peak(), peak());
+    open(&mut end, 24, 45.0);
+    open(&mut end, 23, 10.0);
+    open(&mut end, 22, 10.0);
+    assert_eq!(mode(&before, &end), FailureMode::DiagonalTension);
+    before.bars[1].utilisation = 1.1;
+    assert_eq!(mode(&before, &end), FailureMode::Flexure);
 }
 
 #[test]
