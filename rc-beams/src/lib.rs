@@ -10,6 +10,7 @@ pub mod options;
 pub mod output;
 pub mod point;
 pub mod ronfile;
+pub mod results;
 pub mod run;
 pub mod spec;
 mod suggest;
