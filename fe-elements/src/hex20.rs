@@ -31,7 +31,7 @@ impl HexRule {
     }
 }
 
-/// How the crack-band width h [mm] of an element follows from its shape.
+/// How the crack-band width h (mm) of an element follows from its shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum BandWidth {
     /// Cube root of the volume a point stands for.
@@ -43,7 +43,7 @@ pub enum BandWidth {
         /// Factor on the side of the equivalent square.
         factor: f64,
     },
-    /// The same for every point [mm].
+    /// The same for every point (mm).
     Fixed(f64),
 }
 
@@ -74,7 +74,7 @@ pub struct Hex20 {
 }
 
 impl Hex20 {
-    /// An element at node coordinates `coords` [mm].
+    /// An element at node coordinates `coords` (mm).
     ///
     /// # Errors
     ///
@@ -119,12 +119,12 @@ impl Hex20 {
         })
     }
 
-    /// Volume [mm3].
+    /// Volume (mm3).
     pub fn volume(&self) -> f64 {
         self.points.iter().map(|p| p.1).sum()
     }
 
-    /// Crack-band width h [mm].
+    /// Crack-band width h (mm).
     pub const fn band_width(&self) -> f64 {
         self.band_width
     }

@@ -15,7 +15,7 @@ pub(crate) const MAX_POINTS: usize = 27;
 /// Points treated together.
 const CHUNK: usize = 8;
 
-/// Gradients dN/dx, dN/dy, dN/dz [1/mm] of the 20 nodes at one point, by direction.
+/// Gradients dN/dx, dN/dy, dN/dz (1/mm) of the 20 nodes at one point, by direction.
 pub(crate) type Gradients = [[f64; PAD]; 3];
 
 /// Voigt rows that the derivatives along x, y, z of displacement direction `k` enter:

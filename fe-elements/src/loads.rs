@@ -4,7 +4,7 @@ use fe_core::mesh::NodeId;
 use fe_core::shape::{hex20, quad8, quadrature};
 use nalgebra::Vector3;
 
-/// Nodal forces [N] of a body force `density` [N/mm3] on a 20-node hexahedron, f_a = int N_a b dV, with
+/// Nodal forces (N) of a body force `density` (N/mm3) on a 20-node hexahedron, f_a = int N_a b dV, with
 /// 3 x 3 x 3 points.
 pub fn body_force(
     nodes: &[NodeId; 20],
@@ -24,7 +24,7 @@ pub fn body_force(
     forces
 }
 
-/// Nodal forces [N] of a traction t [MPa] on an 8-node face, f_a = int N_a t dA, with 3 x 3 points. The
+/// Nodal forces (N) of a traction t (MPa) on an 8-node face, f_a = int N_a t dA, with 3 x 3 points. The
 /// traction is given the outward unit normal of each point.
 pub fn face_traction(
     nodes: &[NodeId; 8],
@@ -51,7 +51,7 @@ pub fn face_traction(
     forces
 }
 
-/// Nodal forces [N] of a pressure [MPa], positive against the face, on an 8-node face whose node order
+/// Nodal forces (N) of a pressure (MPa), positive against the face, on an 8-node face whose node order
 /// gives the outward normal.
 pub fn face_pressure(
     nodes: &[NodeId; 8],

@@ -25,7 +25,7 @@ pub enum QuadRule {
 #[derive(Debug)]
 pub struct Quad8 {
     nodes: [NodeId; 8],
-    /// Gradients [1/mm] and volume [mm3] of each point.
+    /// Gradients (1/mm) and volume (mm3) of each point.
     points: Vec<([[f64; 2]; 8], f64)>,
     band_width: f64,
     law: Arc<dyn Material<PlaneStress>>,
@@ -34,7 +34,7 @@ pub struct Quad8 {
 const DOFS: [Dof; 2] = [Dof::Ux, Dof::Uy];
 
 impl Quad8 {
-    /// An element at `coords` [mm] with `thickness` [mm].
+    /// An element at `coords` (mm) with `thickness` (mm).
     ///
     /// # Errors
     ///

@@ -10,8 +10,9 @@
 //! | [`VonMises`] | solid | verification, metal |
 //! | [`concrete::Associated`] | solid | concrete in compression, material points |
 //! | [`concrete::Isochoric`] | solid | concrete in compression |
+//! | [`concrete::Objective`] | solid | concrete that cracks and crushes, objective, rotating cracks |
 //! | [`concrete::Reference`] | solid | published results of the beams |
-//! | [`fixed_crack::FixedCrack`] | solid | concrete that cracks, objective |
+//! | [`fixed_crack::FixedCrack`] | solid | concrete that cracks and crushes, objective, fixed cracks |
 //! | [`Biso`] | bar | reinforcement |
 //! | [`Lamina`], [`Laminate`] | plane stress | fibre sheets |
 //!

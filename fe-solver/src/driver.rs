@@ -11,7 +11,7 @@ pub type IterationLog<'a> = dyn FnMut(&Residual, f64) -> Result<(), SolverError>
 /// Result of one attempt at a step. The trial state of the stage is that of `displacement`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attempt {
-    /// Displacement of all DOFs [mm]; the best iterate if the attempt did not converge.
+    /// Displacement of all DOFs (mm); the best iterate if the attempt did not converge.
     pub displacement: Vec<f64>,
     /// Load factor.
     pub lambda: f64,

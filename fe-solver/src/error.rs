@@ -26,7 +26,7 @@ pub enum SolverError {
         node: NodeId,
         /// DOF.
         dof: Dof,
-        /// Position of the node [mm].
+        /// Position of the node (mm).
         position: [f64; 3],
         /// Smallest over largest pivot.
         ratio: f64,

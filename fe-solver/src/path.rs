@@ -11,7 +11,7 @@ pub struct Border {
     pub slope: f64,
 }
 
-/// One scalar equation g(du, dlambda) = 0 on the increment of a step, with du the free part [mm].
+/// One scalar equation g(du, dlambda) = 0 on the increment of a step, with du the free part (mm).
 ///
 /// With K du_r = r and K du_q = q, the correction of the bordered system is
 /// d lambda = -(g + c . du_r)/(d + c . du_q), du = du_r + d lambda du_q, where c and d are the
@@ -44,7 +44,7 @@ impl PathConstraint for LoadFactor {
     }
 }
 
-/// A free displacement grows by the length of the step [mm] while the load factor drives forces.
+/// A free displacement grows by the length of the step (mm) while the load factor drives forces.
 /// g = du_k - length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreeDisplacement {

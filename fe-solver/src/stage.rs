@@ -46,7 +46,7 @@ pub struct PhaseTimes {
 pub struct Residual {
     /// |f_ext - f_int| on the free equations over the norm of the reactions (2-norms).
     pub relative: f64,
-    /// Largest component [N].
+    /// Largest component (N).
     pub largest: f64,
     /// DOF of that component.
     pub worst: usize,
@@ -116,7 +116,7 @@ impl<'m> Stage<'m> {
         &self.assembler
     }
 
-    /// Accepted displacement of all DOFs [mm].
+    /// Accepted displacement of all DOFs (mm).
     pub fn displacement(&self) -> &[f64] {
         &self.displacement
     }
@@ -131,7 +131,7 @@ impl<'m> Stage<'m> {
         self.previous.as_ref().map(|(du, dl)| (du.as_slice(), *dl))
     }
 
-    /// Residual f_ext - f_int of the free equations at the accepted state [N]; empty before the first
+    /// Residual f_ext - f_int of the free equations at the accepted state (N); empty before the first
     /// step has been accepted.
     pub fn accepted_residual(&self) -> &[f64] {
         &self.accepted_residual
@@ -157,7 +157,7 @@ impl<'m> Stage<'m> {
         &self.times
     }
 
-    /// Displacement of all DOFs whose free part is `free` [mm] and whose constrained part belongs to
+    /// Displacement of all DOFs whose free part is `free` (mm) and whose constrained part belongs to
     /// the load factor `lambda`.
     pub fn compose(&self, free: &[f64], lambda: f64) -> Vec<f64> {
         let mut u: Vec<f64> = self
@@ -299,7 +299,7 @@ impl<'m> Stage<'m> {
             .sum()
     }
 
-    /// Reaction [N] of a constrained DOF in the last evaluation.
+    /// Reaction (N) of a constrained DOF in the last evaluation.
     pub fn reaction(&self, dof: usize) -> f64 {
         self.assembled.internal[dof] - self.external[dof]
     }

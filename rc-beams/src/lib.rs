@@ -9,6 +9,7 @@ pub mod list;
 pub mod options;
 pub mod output;
 pub mod point;
+pub mod results;
 pub mod ronfile;
 pub mod run;
 pub mod spec;

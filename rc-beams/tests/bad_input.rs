@@ -124,9 +124,9 @@ const CASES: &[Case] = &[
     ),
     (
         "load: TotalReactions",
-        "load: InnerShear(load: 1.5, end_support: 1)",
+        "load: InnerShear(end_support: 1.5)",
         "1.5",
-        &["measuring.load.InnerShear.load: a fraction; allowed: whole numbers"],
+        &["measuring.load.InnerShear.end_support: a fraction; allowed: whole numbers"],
     ),
     // Not a number.
     (
@@ -247,9 +247,9 @@ const CASES: &[Case] = &[
     // Measuring points.
     (
         "load: TotalReactions",
-        "load: InnerShear(load: 2, end_support: 1)",
+        "load: InnerShear(end_support: 2)",
         "2",
-        &["measuring.load.load: number 2 of 2; allowed: 0 to 1"],
+        &["measuring.load.end_support: number 2 of 2; allowed: 0 to 1"],
     ),
     (
         "y_mm: 0,",

@@ -12,13 +12,13 @@ use fe_elements::HexRule;
 
 use crate::mesh::{boxes, hexahedra, lines, nodes_where};
 
-/// Length, depth and half width [mm].
+/// Length, depth and half width (mm).
 pub const SIZE: [f64; 3] = [3050.0, 305.0, 75.0];
-/// Places of the supports and of the loads [mm]; each snaps to the nearest corner nodes.
+/// Places of the supports and of the loads (mm); each snaps to the nearest corner nodes.
 const SUPPORTS: [f64; 2] = [610.0, 2440.0];
 const LOADS: [f64; 2] = [1370.0, 1680.0];
 
-/// The beam with its conditions: the load factor is the deflection of the load lines [mm].
+/// The beam with its conditions: the load factor is the deflection of the load lines (mm).
 #[derive(Debug)]
 pub struct BareBeam {
     /// The model.

@@ -14,9 +14,9 @@ use fe_solver::stage::Stage;
 /// Equilibrium reached at the end of a stage.
 #[derive(Debug)]
 pub struct Solution {
-    /// Displacement of all DOFs [mm].
+    /// Displacement of all DOFs (mm).
     pub displacement: Vec<f64>,
-    /// Internal minus external force [N] on all DOFs: the reactions where a DOF is held, else the
+    /// Internal minus external force (N) on all DOFs: the reactions where a DOF is held, else the
     /// residual.
     pub reactions: Vec<f64>,
     /// History of every element.
@@ -24,7 +24,7 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// Displacement [mm] of a DOF.
+    /// Displacement (mm) of a DOF.
     ///
     /// # Panics
     ///
@@ -33,7 +33,7 @@ impl Solution {
         self.displacement[index(model, node, dof)]
     }
 
-    /// Sum of the reactions [N] of a DOF over nodes.
+    /// Sum of the reactions (N) of a DOF over nodes.
     ///
     /// # Panics
     ///

@@ -115,11 +115,17 @@ pub enum CheckFailure {
         /// Allowed disagreement.
         limit: f64,
     },
-    /// The secant operator is not symmetric.
-    #[error("{place}: the secant operator has {upper} at ({row}, {column}) but {lower} mirrored")]
-    SecantUnsymmetric {
+    /// An operator that must be symmetric is not: the secant always, the tangent of a law that does not
+    /// announce it as unsymmetric.
+    #[error(
+        "{place}: the {operator} has {upper} at ({row}, {column}) but {lower} mirrored (allowed \
+         disagreement {limit:.3e})"
+    )]
+    Unsymmetric {
         /// Where.
         place: Place,
+        /// Which operator.
+        operator: &'static str,
         /// Row.
         row: usize,
         /// Column.
@@ -128,6 +134,8 @@ pub enum CheckFailure {
         upper: f64,
         /// Entry at (column, row).
         lower: f64,
+        /// Allowed disagreement.
+        limit: f64,
     },
     /// The secant operator is not positive definite.
     #[error("{place}: pivot {index} of the secant operator is {pivot:.3e}, not positive")]

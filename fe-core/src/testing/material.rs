@@ -18,6 +18,7 @@ use crate::material::Material;
 ///   what the step latches is held.
 ///   A column that disagrees is excused only where the one-sided differences disagree by more (a kink),
 ///   and the share of such steps is bounded by [`MaterialCheck::kink_share`];
+/// - the tangent is symmetric unless the law [announces](Material::unsymmetric_tangent) that it is not;
 /// - [`Operator::Secant`](crate::material::Operator::Secant) is symmetric positive definite;
 /// - sigma_(n+1) : d_eps - d_psi >= 0 if the law has a [free energy](Material::free_energy).
 ///

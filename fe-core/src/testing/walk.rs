@@ -165,22 +165,8 @@ impl<'a, K: Kinematics> Walk<'a, K> {
         self.same(answer, &secant, "asked for with the secant operator")?;
         let mut matrix = entries::<K>(&secant.response.tangent);
         finite(self.place, &matrix, tangent_label::<K>)?;
-        let limit = 1e-12 * norm(&matrix);
+        self.symmetric("secant operator", &matrix, 1e-12 * norm(&matrix))?;
         let n = K::LEN;
-        for row in 0..n {
-            for column in row + 1..n {
-                let (upper, lower) = (matrix[row * n + column], matrix[column * n + row]);
-                if (upper - lower).abs() > limit {
-                    return Err(CheckFailure::SecantUnsymmetric {
-                        place: self.place,
-                        row,
-                        column,
-                        upper,
-                        lower,
-                    });
-                }
-            }
-        }
         let mut least = f64::INFINITY;
         for index in 0..n {
             let pivot = matrix[index * n + index];
@@ -202,6 +188,32 @@ impl<'a, K: Kinematics> Walk<'a, K> {
         Ok(ratio(least, self.stiffness))
     }
 
+    fn symmetric(
+        &self,
+        operator: &'static str,
+        matrix: &[f64],
+        limit: f64,
+    ) -> Result<(), CheckFailure> {
+        let n = K::LEN;
+        for row in 0..n {
+            for column in row + 1..n {
+                let (upper, lower) = (matrix[row * n + column], matrix[column * n + row]);
+                if (upper - lower).abs() > limit {
+                    return Err(CheckFailure::Unsymmetric {
+                        place: self.place,
+                        operator,
+                        row,
+                        column,
+                        upper,
+                        lower,
+                        limit,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Worst relative disagreement of the tangent of an update from `base`; `None` at a kink.
     fn tangent(
         &mut self,
@@ -213,8 +225,12 @@ impl<'a, K: Kinematics> Walk<'a, K> {
         let ctx = self.check.context.with_operator(Operator::None);
         let mut scratch = vec![0.0; base.len()];
         let tangent = &answer.response.tangent;
-        let scale = self.stiffness.max(norm(&entries::<K>(tangent)));
+        let matrix = entries::<K>(tangent);
+        let scale = self.stiffness.max(norm(&matrix));
         let limit = self.check.tangent_tolerance * scale;
+        if !law.unsymmetric_tangent() {
+            self.symmetric("tangent", &matrix, limit)?;
+        }
         let verdict = self.differences.compare(
             K::components(strain),
             K::components(&answer.response.stress),

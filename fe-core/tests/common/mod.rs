@@ -14,13 +14,23 @@ use fe_core::shape::hex20;
 use fe_core::voigt;
 use nalgebra::{Matrix3, Matrix6, Vector1, Vector3, Vector6};
 
-/// Linear elasticity with any stiffness matrix.
+/// Linear elasticity with any stiffness and secant matrix.
 #[derive(Debug)]
-pub struct Elastic(pub Matrix6<f64>);
+pub struct Elastic {
+    pub tangent: Matrix6<f64>,
+    pub secant: Matrix6<f64>,
+}
 
 impl Elastic {
+    pub fn new(stiffness: &Matrix6<f64>) -> Self {
+        Self {
+            tangent: *stiffness,
+            secant: *stiffness,
+        }
+    }
+
     pub fn isotropic(young: f64, poisson: f64) -> Self {
-        Self(voigt::isotropic(young, poisson))
+        Self::new(&voigt::isotropic(young, poisson))
     }
 }
 
@@ -38,16 +48,19 @@ impl Material<Solid> for Elastic {
         strain: &Vector6<f64>,
         _committed: &[f64],
         _trial: &mut [f64],
-        _ctx: &PointContext,
+        ctx: &PointContext,
     ) -> Result<Response<Solid>, MaterialError> {
         Ok(Response {
-            stress: self.0 * strain,
-            tangent: self.0,
+            stress: self.tangent * strain,
+            tangent: match ctx.operator {
+                Operator::Secant => self.secant,
+                _ => self.tangent,
+            },
         })
     }
 
     fn free_energy(&self, strain: &Vector6<f64>, _: &[f64], _: &PointContext) -> Option<f64> {
-        Some(0.5 * strain.dot(&(self.0 * strain)))
+        Some(0.5 * strain.dot(&(self.tangent * strain)))
     }
 }
 
@@ -385,13 +398,13 @@ impl Element for Brick {
         ctx: &EvaluationContext,
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
-        let stress = self.law.0 * self.strain(u);
+        let stress = self.law.tangent * self.strain(u);
         for i in 0..60 {
             out.force[i] += self.volume * self.column(i).dot(&stress);
             if ctx.operator != Operator::None {
                 for j in i..60 {
                     out.stiffness[60 * i + j] +=
-                        self.volume * self.column(i).dot(&(self.law.0 * self.column(j)));
+                        self.volume * self.column(i).dot(&(self.law.tangent * self.column(j)));
                 }
             }
         }
@@ -409,7 +422,7 @@ impl Element for Brick {
         visit: &mut dyn FnMut(PointSample<'_>),
     ) -> Result<(), ElementError> {
         let strain = self.strain(u);
-        let stress = self.law.0 * strain;
+        let stress = self.law.tangent * strain;
         for (share, crack_strain, normal) in
             [(0.25, 1e-3, [1.0, 0.0, 0.0]), (0.75, 3e-3, [0.0, 1.0, 0.0])]
         {

@@ -34,7 +34,7 @@ pub(super) struct Piece {
     pub(super) ends: [Vector3<f64>; 2],
     /// Unit vector from the first end to the second.
     pub(super) direction: Vector3<f64>,
-    /// Arc length of the first end along the bar [mm].
+    /// Arc length of the first end along the bar (mm).
     pub(super) start: f64,
 }
 

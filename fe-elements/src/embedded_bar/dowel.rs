@@ -11,7 +11,7 @@ use fe_core::element::ElementError;
 /// direction n in the plane of the bar and the crack.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dowel {
-    /// V per unit of shear strain [N].
+    /// V per unit of shear strain (N).
     pub stiffness_n: f64,
     /// Normal of the plane in which the dowel acts; the transverse direction is `plane_normal` x t, and a
     /// bar along the normal has no dowel.
@@ -19,8 +19,8 @@ pub struct Dowel {
 }
 
 impl Dowel {
-    /// Foundation stiffness of He and Kwan (2001): k = 127 c sqrt(fc)/phi^(2/3) [N/mm3] with c = 0.8,
-    /// beta = (k phi/(4 E I))^(1/4) [1/mm], stiffness = E I beta^3 h [N]. The constants 127 and 0.8 are assumed:
+    /// Foundation stiffness of He and Kwan (2001): k = 127 c sqrt(fc)/phi^(2/3) (N/mm3) with c = 0.8,
+    /// beta = (k phi/(4 E I))^(1/4) (1/mm), stiffness = E I beta^3 h (N). The constants 127 and 0.8 are assumed:
     /// they are quoted here at second hand.
     ///
     /// # Errors

@@ -90,12 +90,12 @@ impl EmbeddedBar {
         &self.bar
     }
 
-    /// Length of the bar inside this host [mm].
+    /// Length of the bar inside this host (mm).
     pub fn length(&self) -> f64 {
         self.points.iter().map(|p| p.weight).sum()
     }
 
-    /// Axial strain and stress [MPa] at every point with its arc length along the bar [mm].
+    /// Axial strain and stress (MPa) at every point with its arc length along the bar (mm).
     ///
     /// # Errors
     ///

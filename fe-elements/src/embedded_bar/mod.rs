@@ -28,9 +28,9 @@ use cut::{Host, Piece};
 pub struct Bar {
     /// Name, for messages and gauges.
     pub name: String,
-    /// Corners of the polyline [mm].
+    /// Corners of the polyline (mm).
     pub polyline: Vec<[f64; 3]>,
-    /// Cross-section [mm2].
+    /// Cross-section (mm2).
     pub area_mm2: f64,
     /// Uniaxial law.
     pub law: Arc<dyn Material<Axial>>,
@@ -82,7 +82,7 @@ impl Bar {
         Ok(())
     }
 
-    /// Length of the polyline [mm].
+    /// Length of the polyline (mm).
     pub fn length_mm(&self) -> f64 {
         let segments = self.polyline.windows(2);
         segments
@@ -152,7 +152,7 @@ fn hosts(mesh: &Mesh, names: &[&str]) -> Result<Vec<Host>, ElementError> {
     Ok(named.flat_map(|b| b.cells().map(host)).collect())
 }
 
-/// Gradients [1/mm] of the host's shape functions at a point [mm] inside it.
+/// Gradients (1/mm) of the host's shape functions at a point (mm) inside it.
 fn gradients_at(host: &Host, point: Vector3<f64>) -> Option<[[f64; 3]; 20]> {
     let xi = host.natural(point)?;
     Some(hex20::map(&host.coords, xi).1)

@@ -6,8 +6,8 @@ use serde::Deserialize;
 
 use super::{CaseError, ConcreteCase};
 use crate::concrete::{
-    Associated, Calibration, Isochoric, Ottosen, Reference, ReferenceParameters, ShearRetention,
-    TensionStiffening,
+    Associated, Calibration, Isochoric, Objective, Ottosen, Reference, ReferenceParameters,
+    ShearRetention, TensionStiffening,
 };
 use crate::fixed_crack::{FixedCrack, FixedCrackParameters};
 use crate::{Biso, Elastic, Hardening, Lamina, LaminaParameters, Laminate, Ply, VonMises};
@@ -56,6 +56,13 @@ pub enum LawCase {
     Isochoric {
         /// The concrete.
         concrete: ConcreteCase,
+    },
+    /// [`Objective`] concrete with the crack-band width of the point.
+    Objective {
+        /// The concrete.
+        concrete: ConcreteCase,
+        /// Crack-band width h (mm).
+        band_width_mm: f64,
     },
     /// [`Reference`] concrete; see [`ReferenceParameters::new`] for what is not given.
     Reference {
@@ -160,7 +167,9 @@ impl LawCase {
     /// none do not use it.
     pub const fn context(&self) -> PointContext {
         match self {
-            Self::FixedCrack { band_width_mm, .. } => PointContext::new(*band_width_mm),
+            Self::Objective { band_width_mm, .. } | Self::FixedCrack { band_width_mm, .. } => {
+                PointContext::new(*band_width_mm)
+            }
             _ => PointContext::new(0.0),
         }
     }
@@ -192,6 +201,7 @@ impl LawCase {
             )?),
             Self::Associated { concrete } => solid(Associated::new(&concrete.build()?)?),
             Self::Isochoric { concrete } => solid(Isochoric::new(&concrete.build()?)?),
+            Self::Objective { concrete, .. } => solid(Objective::new(&concrete.build()?)?),
             Self::Reference {
                 concrete,
                 stiffening,
@@ -211,10 +221,10 @@ impl LawCase {
             }
             Self::FixedCrack {
                 concrete,
-                band_width_mm: _,
                 crushing_energy_n_per_mm,
                 shear_floor,
                 ottosen_onset,
+                ..
             } => {
                 let c = concrete.build()?;
                 let default =

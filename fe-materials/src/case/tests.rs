@@ -43,6 +43,7 @@ fn every_law_can_be_written_down_and_run() {
         "VonMises(young_mpa: 200000, poisson: 0.3, yield_mpa: 400)".into(),
         format!("Associated({CONCRETE})"),
         format!("Isochoric({CONCRETE})"),
+        format!("Objective({CONCRETE}, band_width_mm: 30)"),
         format!("Reference({CONCRETE}, stiffening: Stirrups, retention: Hinton)"),
         format!("Reference({CONCRETE}, stiffening: VerticalCracks((0, 1, 0)), shear_floor: 0.1)"),
         format!("FixedCrack({CONCRETE}, band_width_mm: 30, ottosen_onset: false)"),

@@ -1,6 +1,7 @@
 //! Protects what the beams rely on: energies, envelopes, irreversible shear factor, latching, refusals.
 
 use fe_core::material::{Material, MaterialError, Operator, PointContext};
+use fe_core::testing::{MaterialCheck, check_material};
 use nalgebra::Vector6;
 
 use super::{FixedCrack, FixedCrackParameters};
@@ -157,4 +158,20 @@ fn impossible_parameters_and_bands_are_refused() {
     };
     assert!(law(0.2).admit(&PointContext::new(0.999 * limit)).is_ok());
     assert!(law(0.2).admit(&PointContext::new(1.001 * limit)).is_err());
+}
+/// Contract of a law on 10^4 random paths: repeatable, latched, tangent to 1e-6, secant positive definite,
+/// and no energy created once cracked.
+#[test]
+fn conforms() {
+    for poisson in [0.0, 0.2] {
+        for amplitude in [1e-3, 1e-2] {
+            let check = MaterialCheck {
+                paths: 2500,
+                steps: 10,
+                ..MaterialCheck::new(amplitude)
+            };
+            let report = check_material(&law(poisson), &check).unwrap();
+            assert!(report.least_dissipation.is_some());
+        }
+    }
 }

@@ -7,14 +7,16 @@ use fe_core::model::{Conditions, Model};
 use super::BuildError;
 use crate::spec::{Held, LoadMeasure, Specimen};
 
-/// Nodes closer than this [mm] to a line or plane lie on it.
+/// Nodes closer than this (mm) to a line or plane lie on it.
 const ON: f64 = 1e-6;
 
 /// A line of nodes across the width, held or pushed vertically.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Line {
-    /// Position along the beam [mm].
+    /// Position along the beam (mm).
     pub x: f64,
+    /// Height above the soffit (mm).
+    pub y: f64,
     /// Nodes.
     nodes: Vec<NodeId>,
     /// Vertical DOFs.
@@ -32,10 +34,15 @@ impl Line {
             .iter()
             .map(|&n| model.dof(n, Dof::Uy))
             .collect::<Result<_, _>>()?;
-        Ok(Self { x, nodes, vertical })
+        Ok(Self {
+            x,
+            y,
+            nodes,
+            vertical,
+        })
     }
 
-    /// Force [N] on the line, half width, from the reaction of each DOF; positive upwards.
+    /// Force (N) on the line, half width, from the reaction of each DOF; positive upwards.
     pub fn force(&self, reaction: impl Fn(usize) -> f64) -> f64 {
         self.vertical.iter().map(|&d| reaction(d)).sum()
     }
@@ -86,12 +93,12 @@ impl Measures {
         })
     }
 
-    /// Support reactions [N] of the half model, from the reaction of each DOF.
+    /// Support reactions (N) of the half model, from the reaction of each DOF.
     pub fn reactions(&self, reaction: impl Fn(usize) -> f64 + Copy) -> Vec<f64> {
         self.supports.iter().map(|s| s.force(reaction)).collect()
     }
 
-    /// Reported load of the whole width [kN] from the support reactions [N] of the half model, self
+    /// Reported load of the whole width (kN) from the support reactions (N) of the half model, self
     /// weight included or not as the reactions are.
     ///
     /// All reactions together, or, for the shear force at an inner support, the load of one span (the sum
@@ -101,7 +108,7 @@ impl Measures {
         let total: f64 = reactions.iter().sum();
         let half = match self.load {
             LoadMeasure::TotalReactions => total,
-            LoadMeasure::InnerShear { end_support, .. } => {
+            LoadMeasure::InnerShear { end_support } => {
                 total / self.loads.len() as f64 - reactions.get(end_support).copied().unwrap_or(0.0)
             }
         };

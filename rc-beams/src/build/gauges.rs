@@ -25,7 +25,7 @@ struct Place {
 }
 
 impl Gauge {
-    /// Strain [-].
+    /// Strain (-).
     ///
     /// # Errors
     ///

@@ -3,9 +3,9 @@
 /// An interval of the axis that must be meshed with its own even number of elements: a plate or stub.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patch {
-    /// Centre [mm].
+    /// Centre (mm).
     pub centre: f64,
-    /// Length along the axis [mm].
+    /// Length along the axis (mm).
     pub length: f64,
 }
 

@@ -68,7 +68,7 @@ pub(super) fn mesh(specimen: &Specimen, settings: &ModelSettings) -> Result<Mesh
     Ok(grid.finish()?)
 }
 
-/// Whether the zone at `x` [mm] has stirrups.
+/// Whether the zone at `x` (mm) has stirrups.
 fn has_stirrups(specimen: &Specimen, x: f64) -> bool {
     specimen.stirrups.as_ref().is_some_and(|s| s.cover(x))
 }

@@ -21,7 +21,7 @@ use fe_elements::{BandWidth, Hex20, HexRule, loads};
 pub use conditions::{Line, Measures};
 pub use gauges::Gauge;
 pub use reinforcement::{BarKind, BarRecord};
-pub use settings::{ConcreteLaw, ModelSettings, Preset};
+pub use settings::ModelSettings;
 
 use crate::spec::Specimen;
 
@@ -59,9 +59,9 @@ pub enum BuildError {
     NoNode {
         /// What should be there.
         what: String,
-        /// Position [mm].
+        /// Position (mm).
         x: f64,
-        /// Position [mm].
+        /// Position (mm).
         y: f64,
     },
 }
@@ -81,7 +81,7 @@ pub struct Beam {
     pub gauges: Vec<Gauge>,
     /// Stage 1: self weight, load factor 0 to 1.
     pub weight: Conditions,
-    /// Stage 2: the load factor is the imposed deflection of the loads [mm].
+    /// Stage 2: the load factor is the imposed deflection of the loads (mm).
     pub loading: Conditions,
 }
 
@@ -151,7 +151,7 @@ impl Beam {
     }
 }
 
-/// Nodes and coordinates [mm] of the cells of a block; none for an unknown name.
+/// Nodes and coordinates (mm) of the cells of a block; none for an unknown name.
 fn cells(
     mesh: &fe_core::mesh::Mesh,
     block: &str,

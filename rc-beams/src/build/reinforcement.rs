@@ -16,7 +16,7 @@ use crate::spec::{Specimen, Steel};
 pub enum BarKind {
     /// A longitudinal bar.
     Longitudinal,
-    /// The vertical leg of a stirrup at a position along the beam [mm].
+    /// The vertical leg of a stirrup at a position along the beam (mm).
     StirrupLeg(f64),
     /// A horizontal leg of a stirrup.
     Tie,
@@ -29,9 +29,9 @@ pub struct BarRecord {
     pub name: String,
     /// What it is for.
     pub kind: BarKind,
-    /// Ends [mm].
+    /// Ends (mm).
     pub ends: [[f64; 3]; 2],
-    /// Yield stress [MPa].
+    /// Yield stress (MPa).
     pub fy_mpa: f64,
     /// Elements it was cut into, in no particular order along the bar.
     pub elements: Range<usize>,

@@ -182,7 +182,7 @@ Beam(
     title: "a \" (quote: 2)", /* b: 3 */
     raw: r#"x " y"#,
     bars: [(y_mm: 51.5), Bar(y_mm: -1e3)],
-    load: InnerShear(load: 1), none: None,
+    load: InnerShear(end_support: 1), none: None,
     strain: {"eps_xx": 0.1, "eps_yy": -2},
 )"##;
 
@@ -195,8 +195,8 @@ Beam(
             ("bars[0]", "(y_mm: 51.5)"),
             ("bars[0].y_mm", "51.5"),
             ("bars[1].y_mm", "-1e3"),
-            ("load", "InnerShear(load: 1)"),
-            ("load.load", "1"),
+            ("load", "InnerShear(end_support: 1)"),
+            ("load.end_support", "1"),
             ("none", "None"),
             ("strain.eps_yy", "-2"),
             ("bars[1].missing", "Bar(y_mm: -1e3)"),

@@ -206,10 +206,9 @@ pub struct Span {
 pub enum LoadMeasure {
     /// Sum of the vertical reactions of all supports.
     TotalReactions,
-    /// Shear force between a load and the inner support: the load less the reaction of its end support.
+    /// Shear force at an inner support: the load of one span, which is the sum of all reactions shared
+    /// equally by the loads, less the reaction of the end support of that span.
     InnerShear {
-        /// Which load, counted from 0 at the left.
-        load: usize,
         /// Which end support, counted from 0 at the left.
         end_support: usize,
     },

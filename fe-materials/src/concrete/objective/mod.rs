@@ -39,8 +39,8 @@ const LEAST_REDUCTION: f64 = 0.5;
 /// 3. **Stress** sigma = (1 - d) pos(sb) + neg(sb), pos and neg being the parts of sb with positive and
 ///    negative principal values.
 ///
-/// Cracks rotate with the effective stress and close completely; the largest principal stress never exceeds
-/// fctm, so shear cannot lock. Uniaxial tension dissipates G_F/h exactly. h must stay below 2 E G_F/fctm^2.
+/// Cracks rotate with the effective stress and close completely; without viscosity the largest principal stress
+/// never exceeds fctm, so shear cannot lock. Uniaxial tension dissipates G_F/h exactly. h must stay below 2 E G_F/fctm^2.
 ///
 /// The growth of kt in a step is scaled by [`PointContext::relaxation`].
 ///

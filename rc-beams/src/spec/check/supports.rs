@@ -121,19 +121,15 @@ impl Checks<'_> {
         let end = ("end of the test span", to);
         self.within("measuring.test_span.x_to_mm", end, 0.0..=length, ALONG);
         self.ascending("measuring.test_span.x_to_mm", from, to);
-        if let LoadMeasure::InnerShear { load, end_support } = measuring.load {
-            self.index("load", load, self.specimen.loads.len());
-            self.index("end_support", end_support, self.specimen.supports.len());
-        }
-    }
-
-    fn index(&mut self, field: &str, index: usize, count: usize) {
-        if index >= count {
+        let supports = self.specimen.supports.len();
+        if let LoadMeasure::InnerShear { end_support } = measuring.load
+            && end_support >= supports
+        {
             self.report(
-                format!("measuring.load.{field}"),
+                "measuring.load.end_support",
                 format!(
-                    "number {index} of {count}; allowed: 0 to {}",
-                    count.max(1) - 1
+                    "number {end_support} of {supports}; allowed: 0 to {}",
+                    supports.max(1) - 1
                 ),
                 "count from 0 at the left",
             );

@@ -1,0 +1,251 @@
+//! Load against deflection, as a picture.
+
+mod legend;
+
+use fe_solver::capacity::{Capacity, PathPoint, Verdict};
+use plotters::chart::{ChartBuilder, ChartContext, LabelAreaPosition};
+use plotters::coord::types::RangedCoordf64;
+use plotters::element::{Circle, EmptyElement, PathElement, Text, TriangleMarker};
+use plotters::prelude::{Cartesian2d, DashedLineSeries, DrawingBackend};
+use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{Color, WHITE};
+
+use self::legend::draw_legend;
+use super::drawing::{Area, Drawn, Picture, draw_heading, line, placed, text, units, wrap};
+use super::palette::{BLUE, FAINT, GREEN, INK, ORANGE, VERMILLION};
+
+/// Load-deflection curve of a run, in mm and kN.
+#[derive(Debug, Clone, Copy)]
+pub struct Curve<'a> {
+    /// Name of the specimen.
+    pub specimen: &'a str,
+    /// What the specimen is, and how it was run.
+    pub title: &'a str,
+    /// Load path.
+    pub path: &'a [PathPoint],
+    /// Peak and first drop.
+    pub capacity: &'a Capacity,
+    /// Trust.
+    pub verdict: &'a Verdict,
+    /// Largest load of the laboratory test (kN), if known.
+    pub test_load_kn: Option<f64>,
+}
+
+type Chart<'c, DB> = ChartContext<'c, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+impl Picture for Curve<'_> {
+    fn size(&self) -> (u32, u32) {
+        (860, 560)
+    }
+
+    fn draw<DB: DrawingBackend>(&self, area: &Area<'_, DB>) -> Drawn<DB> {
+        let trust = format!("trust {}: {}", self.verdict.trust, self.verdict.reason);
+        draw_heading(area, self.specimen, self.title, &wrap(&trust, 118))?;
+        let (x_end, y_end) = self.extent();
+        let mut chart = ChartBuilder::on(area)
+            .margin_top(units(86.0))
+            .margin_right(units(28.0))
+            .margin_bottom(units(8.0))
+            .margin_left(units(8.0))
+            .set_label_area_size(LabelAreaPosition::Left, units(58.0))
+            .set_label_area_size(LabelAreaPosition::Bottom, units(46.0))
+            .build_cartesian_2d(0.0..x_end, 0.0..y_end)?;
+        chart
+            .configure_mesh()
+            .bold_line_style(line(FAINT, 0.75))
+            .light_line_style(WHITE.mix(0.0))
+            .axis_style(line(INK, 1.0))
+            .label_style(text(INK, 13.0))
+            .axis_desc_style(text(INK, 14.0))
+            .set_all_tick_mark_size(units(4.0))
+            .x_labels(10)
+            .y_labels(10)
+            .x_label_formatter(&|value| short(*value))
+            .y_label_formatter(&|value| short(*value))
+            .x_desc("deflection [mm]")
+            .y_desc("load [kN]")
+            .draw()?;
+        self.draw_test(&mut chart)?;
+        self.draw_path(&mut chart)?;
+        self.draw_marks(&chart, area)?;
+        // A load-deflection curve seldom goes to the lower right.
+        draw_legend(area, chart.backend_coord(&(x_end, 0.0)), self.path)
+    }
+}
+
+impl Curve<'_> {
+    /// Ends of the axes, with room above the curve for labels.
+    fn extent(&self) -> (f64, f64) {
+        let largest =
+            |values: &mut dyn Iterator<Item = f64>| values.fold(f64::MIN_POSITIVE, f64::max);
+        let deflection = largest(&mut self.path.iter().map(|p| p.deflection));
+        let loads = self.path.iter().map(|p| p.load);
+        let load = largest(&mut loads.chain(self.test_load_kn));
+        (1.05 * deflection, 1.18 * load)
+    }
+
+    /// Load of the laboratory test as a dashed line.
+    fn draw_test<DB: DrawingBackend>(&self, chart: &mut Chart<'_, DB>) -> Drawn<DB> {
+        let Some(load) = self.test_load_kn else {
+            return Ok(());
+        };
+        let ends = [(0.0, load), (self.extent().0, load)];
+        let style = line(GREEN, 1.5);
+        chart.draw_series(DashedLineSeries::new(ends, units(8.0), units(5.0), style))?;
+        let label = format!("test {load:.1} kN");
+        let style = placed(&text(GREEN, 13.0), HPos::Left, VPos::Bottom);
+        chart.draw_series([
+            EmptyElement::at((0.0, load)) + Text::new(label, (units(8.0), units(-4.0)), style)
+        ])?;
+        Ok(())
+    }
+
+    /// P, broken by dashes where it jumps, with a dot per step; P* where it is regular and in range.
+    fn draw_path<DB: DrawingBackend>(&self, chart: &mut Chart<'_, DB>) -> Drawn<DB> {
+        let at = |p: &PathPoint| (p.deflection, p.load);
+        let solid = line(BLUE, 2.0);
+        for piece in self.path.chunk_by(|_, next| !next.jump) {
+            chart.draw_series([PathElement::new(
+                piece.iter().map(at).collect::<Vec<_>>(),
+                solid,
+            )])?;
+        }
+        for pair in self.path.windows(2).filter(|pair| pair[1].jump) {
+            let ends = [at(&pair[0]), at(&pair[1])];
+            chart.draw_series(DashedLineSeries::new(ends, units(3.0), units(3.0), solid))?;
+        }
+        let dots = self.path.iter();
+        chart.draw_series(dots.map(|p| Circle::new(at(p), units(1.8), BLUE.filled())))?;
+        let top = self.extent().1;
+        let shown = |p: &PathPoint| !p.jump && (0.0..=top).contains(&p.work_conjugate_load);
+        for piece in self.path.chunk_by(|a, b| shown(a) && shown(b)) {
+            let points: Vec<_> = piece
+                .iter()
+                .filter(|p| shown(p))
+                .map(|p| (p.deflection, p.work_conjugate_load))
+                .collect();
+            let style = line(VERMILLION, 1.0);
+            chart.draw_series(DashedLineSeries::new(points, units(4.0), units(4.0), style))?;
+        }
+        let flagged = self.path.iter().filter(|p| p.flagged);
+        chart.draw_series(flagged.map(|p| Circle::new(at(p), units(4.0), line(ORANGE, 1.5))))?;
+        Ok(())
+    }
+
+    /// Peak and first drop with their values.
+    fn draw_marks<DB: DrawingBackend>(
+        &self,
+        chart: &Chart<'_, DB>,
+        area: &Area<'_, DB>,
+    ) -> Drawn<DB> {
+        let Some(peak) = self.path.get(self.capacity.peak) else {
+            return Ok(());
+        };
+        let spot = |p: &PathPoint| chart.backend_coord(&(p.deflection, p.load));
+        let value = |p: &PathPoint| format!("{:.1} kN at {:.2} mm", p.load, p.deflection);
+        let first = self
+            .capacity
+            .first_drop
+            .filter(|&i| i != self.capacity.peak);
+        if let Some(drop) = first.and_then(|i| self.path.get(i)) {
+            let (x, y) = spot(drop);
+            area.draw(&TriangleMarker::new((x, y), units(6.0), BLUE.filled()))?;
+            let style = placed(&text(BLUE, 13.0), HPos::Right, VPos::Bottom);
+            let label = format!("first drop {}", value(drop));
+            area.draw(&Text::new(label, (x - units(6.0), y - units(6.0)), style))?;
+        }
+        let (x, y) = spot(peak);
+        area.draw(&Circle::new((x, y), units(5.0), WHITE.filled()))?;
+        area.draw(&Circle::new((x, y), units(5.0), line(BLUE, 2.0)))?;
+        // Above the line of the test where that is close.
+        let line_y = self.test_load_kn.map(|p| chart.backend_coord(&(0.0, p)).1);
+        let close = line_y.filter(|l| (y - units(28.0)..y + units(6.0)).contains(l));
+        let label_y = close.map_or(y, |l| l.min(y)) - units(9.0);
+        let [left, right] = [0.0, self.extent().0].map(|x| chart.backend_coord(&(x, 0.0)).0);
+        let half = units(95.0);
+        let (label_x, h) = if x + half > right {
+            (right, HPos::Right)
+        } else if x - half < left {
+            (x.max(left + units(4.0)), HPos::Left)
+        } else {
+            (x, HPos::Center)
+        };
+        let style = placed(&text(BLUE, 14.0), h, VPos::Bottom);
+        area.draw(&Text::new(
+            format!("peak {}", value(peak)),
+            (label_x, label_y),
+            style,
+        ))
+    }
+}
+
+/// A number at an axis, without zeros at its end.
+fn short(value: f64) -> String {
+    ((value * 1e3).round() / 1e3).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    //! Protects what a reader must find in the picture: peak, first drop, test, trust, and the marks of
+    //! steps that are no equilibrium.
+    use super::*;
+
+    fn path(loads: &[f64]) -> Vec<PathPoint> {
+        let point = |(i, &load): (usize, &f64)| PathPoint {
+            deflection: 0.5 * i as f64,
+            load,
+            work_conjugate_load: load,
+            residual: 5e-4,
+            flagged: false,
+            jump: false,
+        };
+        loads.iter().enumerate().map(point).collect()
+    }
+
+    fn svg(path: &[PathPoint], test_load_kn: Option<f64>) -> String {
+        let capacity = Capacity::of(path).unwrap();
+        let curve = Curve {
+            specimen: "A-SO3-1",
+            title: "simply supported",
+            path,
+            capacity: &capacity,
+            verdict: &Verdict::of(path, &capacity),
+            test_load_kn,
+        };
+        curve.to_svg().unwrap()
+    }
+
+    #[test]
+    fn peak_first_drop_test_and_trust_are_written_out() {
+        let svg = svg(&path(&[0.0, 100.0, 90.0, 149.2, 60.0]), Some(151.0));
+        for text in [
+            "A-SO3-1",
+            "peak 149.2 kN at 1.50 mm",
+            "first drop 100.0 kN at 0.50 mm",
+            "test 151.0 kN",
+            "trust high: every step",
+            "deflection [mm]",
+        ] {
+            assert!(svg.contains(text), "{text} is missing");
+        }
+        assert!(!svg.contains("jump") && !svg.contains("misses"));
+    }
+
+    #[test]
+    fn an_unknown_test_draws_nothing_and_marks_are_explained() {
+        let mut path = path(&[0.0, 100.0, 50.0]);
+        path[2].jump = true;
+        path[2].flagged = true;
+        path[2].work_conjugate_load = -1400.0;
+        let svg = svg(&path, None);
+        assert!(!svg.contains("test "));
+        assert!(!svg.contains("first drop"), "the peak is the first drop");
+        assert!(svg.contains("jump, no static equilibrium"));
+        assert!(svg.contains("step that misses the criterion"));
+    }
+
+    #[test]
+    fn a_path_of_one_unloaded_point_can_be_drawn() {
+        assert!(svg(&path(&[0.0]), None).contains("trust low"));
+    }
+}

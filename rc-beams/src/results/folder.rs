@@ -1,0 +1,170 @@
+//! The folder that holds the results of one beam.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::{Builder, NamedTempFile};
+
+use super::error::ResultsError;
+use crate::output::{self, OutputError};
+
+/// Files written at the end of a run; those of an earlier run would contradict the tables of this one.
+const WRITTEN_AT_THE_END: [&str; 5] = [
+    "summary.json",
+    "curve.svg",
+    "curve.png",
+    "crack.svg",
+    "fields.pvd",
+];
+
+/// A folder known to be writable.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Folder {
+    path: PathBuf,
+}
+
+impl Folder {
+    /// Makes `root/name` with its parents if missing, tries to write there, and removes what the end of
+    /// an earlier run left.
+    ///
+    /// # Errors
+    ///
+    /// [`ResultsError::Output`] when the folder cannot be made or written.
+    pub fn create(root: &Path, name: &str) -> Result<Self, ResultsError> {
+        let folder = Self {
+            path: root.join(name),
+        };
+        output::prepare(&folder.path)?;
+        for file in WRITTEN_AT_THE_END {
+            remove_if_there(&folder.path.join(file)).map_err(|e| folder.error(file, e))?;
+        }
+        Ok(folder)
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Opens a file that grows during the run; an older one is emptied.
+    ///
+    /// # Errors
+    ///
+    /// [`ResultsError::Output`].
+    pub fn start(&self, name: &str) -> Result<File, ResultsError> {
+        File::create(self.path.join(name)).map_err(|e| self.error(name, e))
+    }
+
+    /// Writes a file as a whole: readers see the old content or the new, never a part.
+    ///
+    /// # Errors
+    ///
+    /// [`ResultsError::Output`], also for what `write` returns; the old content stays.
+    pub fn replace(
+        &self,
+        name: &str,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), ResultsError> {
+        self.replace_by_path(name, |path| {
+            let mut out = BufWriter::new(File::create(path)?);
+            write(&mut out)?;
+            out.flush()
+        })
+    }
+
+    /// As [`Self::replace`], for writers that open the file themselves. The path they are given ends like
+    /// `name`.
+    ///
+    /// # Errors
+    ///
+    /// [`ResultsError::Output`], also for what `write` returns; the old content stays.
+    pub fn replace_by_path(
+        &self,
+        name: &str,
+        write: impl FnOnce(&Path) -> io::Result<()>,
+    ) -> Result<(), ResultsError> {
+        let replace = || {
+            let draft = self.draft(name)?;
+            write(draft.path())?;
+            draft.persist(self.path.join(name))?;
+            Ok(())
+        };
+        replace().map_err(|e| self.error(name, e))
+    }
+
+    /// What a file of the folder suffers from.
+    fn error(&self, name: &str, source: io::Error) -> ResultsError {
+        let path = self.path.join(name);
+        OutputError { path, source }.into()
+    }
+
+    /// A file to be renamed to `name`, as readable by others as any new file.
+    fn draft(&self, name: &str) -> io::Result<NamedTempFile> {
+        let mut builder = Builder::new();
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        builder.suffix(name).tempfile_in(&self.path)
+    }
+}
+
+fn remove_if_there(file: &Path) -> io::Result<()> {
+    match fs::remove_file(file) {
+        Err(e) if e.kind() != io::ErrorKind::NotFound => Err(e),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Protects results already on disk, and the promise that nothing runs before the folder is known to
+    //! be writable.
+    use super::*;
+
+    #[test]
+    fn a_folder_below_a_file_is_refused_with_its_path_and_a_remedy() {
+        let file = NamedTempFile::new().unwrap();
+        let error = Folder::create(file.path(), "A-SO3-1").unwrap_err();
+        assert!(error.to_string().contains("A-SO3-1"), "{error}");
+        let help = miette::Diagnostic::help(&error).unwrap().to_string();
+        assert!(help.contains("--output"), "{help}");
+    }
+
+    #[test]
+    fn a_failed_replacement_keeps_the_old_file_and_leaves_no_draft() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = Folder::create(root.path(), "beam").unwrap();
+        folder
+            .replace("summary.json", |out| out.write_all(b"old"))
+            .unwrap();
+        let failed = folder.replace("summary.json", |out| {
+            out.write_all(b"half of the new")?;
+            Err(io::Error::other("disk full"))
+        });
+        assert!(
+            io::Error::from(failed.unwrap_err())
+                .to_string()
+                .contains("disk full")
+        );
+        let files: Vec<_> = fs::read_dir(folder.path()).unwrap().collect();
+        assert_eq!(files.len(), 1);
+        assert_eq!(
+            fs::read(folder.path().join("summary.json")).unwrap(),
+            b"old"
+        );
+    }
+
+    #[test]
+    fn a_new_run_removes_the_summary_of_an_earlier_one_and_nothing_else() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = Folder::create(root.path(), "beam").unwrap();
+        for name in ["summary.json", "notes.txt"] {
+            folder
+                .replace(name, |out| out.write_all(b"earlier"))
+                .unwrap();
+        }
+        Folder::create(root.path(), "beam").unwrap();
+        assert!(!folder.path().join("summary.json").exists());
+        assert!(folder.path().join("notes.txt").exists());
+    }
+}

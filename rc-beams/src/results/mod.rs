@@ -1,0 +1,20 @@
+//! What a run leaves behind: tables, pictures, summary, progress.
+//!
+//! Everything here takes plain data; nothing knows a model. One folder per beam holds
+//! `history.csv`, `gauges.csv` and `newton.csv`, complete up to the last accepted step at any time, and
+//! `curve.svg`, `curve.png`, `crack.svg` and `summary.json`, each whole or absent.
+
+pub mod crack;
+pub mod curve;
+pub mod drawing;
+pub mod error;
+pub mod evidence;
+pub mod folder;
+pub mod hash;
+pub mod history;
+pub mod interrupt;
+pub mod mode;
+pub mod palette;
+pub mod progress;
+pub mod resources;
+pub mod summary;
