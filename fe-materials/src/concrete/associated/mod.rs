@@ -107,7 +107,7 @@ impl Associated {
             let point = self.curve.at(eta);
             let projected = projection.onto(point.stress, near.as_ref())?;
             near = Some(projected);
-            let slope = -point.stress_slope / projected.softening() - point.kappa_slope;
+            let slope = -point.stress_slope / projected.level_drop() - point.kappa_slope;
             Ok((projected.dlam - (point.kappa - kappa), slope))
         })?;
         let point = self.curve.at(eta);

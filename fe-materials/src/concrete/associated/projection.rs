@@ -49,11 +49,11 @@ pub(super) struct Projected {
     pub(super) stress: Vector3<f64>,
     /// Plastic multiplier (-).
     pub(super) dlam: f64,
-    place: Place,
     /// a = dF/dsigma.
     pub(super) gradient: Vector3<f64>,
     /// Q = (C + dlam d2F/dsigma2)^-1: dsigma = Q (deps - a ddlam).
     pub(super) stiffness: Matrix3<f64>,
+    place: Place,
 }
 
 /// Where a projection lies: multiplier w (MPa), sqrt(J2) (MPa) and Lode angle (rad).
@@ -66,7 +66,7 @@ struct Place {
 
 impl Projected {
     /// -ds/ddlam = a Q a (MPa): how fast the level falls with the plastic multiplier.
-    pub(super) fn softening(&self) -> f64 {
+    pub(super) fn level_drop(&self) -> f64 {
         self.gradient.dot(&(self.stiffness * self.gradient))
     }
 }
@@ -82,7 +82,8 @@ impl<'a> Projection<'a> {
         let radius = (0.5 * trial.add_scalar(-mean).norm_squared()).sqrt();
         // Exact on the meridians, where cos 3f is stationary.
         let angle = (3.0_f64.sqrt() * (trial[1] - trial[2]))
-            .atan2((trial[0] - trial[1]) + (trial[0] - trial[2]));
+            .atan2((trial[0] - trial[1]) + (trial[0] - trial[2]))
+            .min(FRAC_PI_3);
         let apex_angle = apex_angle(surface, angle)?;
         let [lambda, ..] = surface.polar_lambda(apex_angle);
         let apex = radius * (apex_angle - angle).cos() / lambda;
