@@ -18,7 +18,7 @@ use fe_solver::secant::{SecantAnderson, SecantSettings};
 use fe_tests::beam::bare_beam;
 use fe_tests::solve::run;
 
-/// Bits of everything that an analysis leaves; `elastic` is the load [N] per millimetre of the elastic beam, which
+/// Bits of everything that an analysis leaves; `elastic` is the load (N) per millimetre of the elastic beam, which
 /// the softer one must stay well below.
 fn bits<D: Driver + Send>(
     threads: usize,
