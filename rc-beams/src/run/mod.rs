@@ -18,7 +18,8 @@ use crate::analysis::{Outcome, Stepping, analyse};
 use crate::build::{Beam, BuildError, ModelSettings};
 use crate::exit::Exit;
 use crate::options::{self, Integration, RunOptions};
-use crate::results::error::OutputError;
+use crate::output;
+use crate::results::error::ResultsError;
 use crate::results::folder::Folder;
 use crate::results::hash::fingerprint;
 use crate::results::interrupt::Interrupt;
@@ -50,12 +51,12 @@ pub enum RunError {
         /// Specimen.
         specimen: String,
         /// Why.
-        source: BuildError,
+        source: Box<BuildError>,
     },
     /// Results cannot be written.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Output(#[from] OutputError),
+    Output(#[from] ResultsError),
     /// The threads cannot be started.
     #[error("cannot start the threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
@@ -65,7 +66,7 @@ pub enum RunError {
         /// Specimen.
         specimen: String,
         /// Why.
-        source: SolverError,
+        source: Box<SolverError>,
     },
     /// A state cannot be read.
     #[error(transparent)]
@@ -100,6 +101,7 @@ pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, Run
             build(specimen, &settings)?;
         }
     }
+    output::prepare(&options.output).map_err(ResultsError::from)?;
     let mut exit = Exit::Done;
     for specimen in specimens {
         let one = pool.install(|| run(specimen, options, &settings, &interrupt))?;
@@ -114,7 +116,7 @@ pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, Run
 fn build(specimen: &Specimen, settings: &ModelSettings) -> Result<Beam, RunError> {
     Beam::new(specimen, settings).map_err(|source| RunError::Build {
         specimen: specimen.name.clone(),
-        source,
+        source: Box::new(source),
     })
 }
 
@@ -181,8 +183,10 @@ fn run(
         Ok(outcome) => outcome,
         Err(_) if interrupt.is_set() => return Ok(Exit::Interrupted),
         Err(source) => {
-            let specimen = specimen.name.clone();
-            return Err(RunError::Solver { specimen, source });
+            return Err(RunError::Solver {
+                specimen: specimen.name.clone(),
+                source: Box::new(source),
+            });
         }
     };
     let states: Vec<_> = outcome.peak.iter().chain([&outcome.last]).collect();

@@ -7,7 +7,7 @@ use crate::build::{BarKind, BarRecord, Beam};
 use crate::results::crack::CrackView;
 use crate::results::curve::Curve;
 use crate::results::drawing::Picture;
-use crate::results::error::OutputError;
+use crate::results::error::ResultsError;
 use crate::results::evidence::Snapshot;
 use crate::results::folder::Folder;
 use crate::results::summary::Setup;
@@ -23,7 +23,7 @@ pub(super) fn curve(
     setup: &Setup,
     outcome: &Outcome,
     (capacity, verdict): (&Capacity, &Verdict),
-) -> Result<(), OutputError> {
+) -> Result<(), ResultsError> {
     let title = format!(
         "{}; {}, {} integration, {}",
         specimen.title, setup.law, setup.integration, setup.mesh
@@ -47,9 +47,14 @@ pub(super) fn crack(
     beam: &Beam,
     peak: &Snapshot,
     title: &str,
-) -> Result<(), OutputError> {
+) -> Result<(), ResultsError> {
     let nodes = beam.model.mesh().nodes();
-    let cells = beam.model.mesh().blocks().iter().flat_map(|b| b.cells());
+    let cells = beam
+        .model
+        .mesh()
+        .blocks()
+        .iter()
+        .flat_map(fe_core::mesh::Block::cells);
     let elements: Vec<[[f64; 2]; 2]> = cells
         .map(|cell| (nodes[cell[0]], nodes[cell[6]]))
         .filter(|(low, _)| low[2] < ON)

@@ -9,7 +9,8 @@ use fe_solver::recorder::{Continue, IterationRecord, StepView};
 use crate::analysis::{Observer, Reading, Snapshot};
 use crate::build::Beam;
 use crate::options::Fields;
-use crate::results::error::OutputError;
+use crate::output::OutputError;
+use crate::results::error::ResultsError;
 use crate::results::folder::Folder;
 use crate::results::history::{History, StepRow};
 use crate::results::interrupt::Interrupt;
@@ -36,7 +37,7 @@ impl<'a> Recording<'a> {
         fields: Fields,
         plan: (f64, f64),
         interrupt: &'a Interrupt,
-    ) -> Result<Self, OutputError> {
+    ) -> Result<Self, ResultsError> {
         let supports: Vec<String> = beam
             .measures
             .supports
@@ -64,7 +65,7 @@ impl<'a> Recording<'a> {
 
     /// Ends; writes the fields of the given states, unless every step has been written. Returns the wall
     /// time spent writing.
-    pub(super) fn finish(mut self, states: &[&Snapshot]) -> Result<Duration, OutputError> {
+    pub(super) fn finish(mut self, states: &[&Snapshot]) -> Result<Duration, ResultsError> {
         let begin = Instant::now();
         if let Some(series) = self.fields.as_mut().filter(|_| !self.every_step) {
             for s in states {
@@ -123,16 +124,16 @@ impl<'a> Recording<'a> {
     }
 }
 
-fn series(folder: &Folder) -> Result<FieldSeries, OutputError> {
+fn series(folder: &Folder) -> Result<FieldSeries, ResultsError> {
     FieldSeries::create(folder.path(), "fields").map_err(|source| refused(folder, source))
 }
 
 /// Fields that cannot be written.
-fn refused(folder: &Folder, source: fe_core::output::OutputError) -> OutputError {
-    OutputError::File {
+fn refused(folder: &Folder, source: fe_core::output::OutputError) -> ResultsError {
+    ResultsError::Output(OutputError {
         path: folder.path().join("fields.pvd"),
         source: io::Error::other(source),
-    }
+    })
 }
 
 impl Observer for Recording<'_> {
