@@ -38,7 +38,8 @@ impl Quad8 {
     ///
     /// # Errors
     ///
-    /// [`ElementError::Jacobian`] or [`ElementError::Input`].
+    /// [`ElementError::Jacobian`] or [`ElementError::Input`]; [`ElementError::Material`] when the law refuses
+    /// the crack-band width, the square root of the area.
     pub fn new(
         nodes: [NodeId; 8],
         coords: &[[f64; 2]; 8],
@@ -74,10 +75,13 @@ impl Quad8 {
             points.push((gradients, thickness * determinant * w));
         }
         let area: f64 = points.iter().map(|p| p.1 / thickness).sum();
+        let band_width = area.sqrt();
+        law.admit(&PointContext::new(band_width))
+            .map_err(|source| ElementError::Material { point: 0, source })?;
         Ok(Self {
             nodes,
             points,
-            band_width: area.sqrt(),
+            band_width,
             law,
         })
     }
