@@ -47,7 +47,6 @@ impl Element for Spring {
     }
 }
 
-#[cfg_attr(test, test)]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mesh = Mesh::new((0..4).map(|i| [10.0 * f64::from(i), 0.0, 0.0]).collect())?;
     let springs = (0..3).map(|i| Box::new(Spring([i, i + 1])) as Box<dyn Element>);

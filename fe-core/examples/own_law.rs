@@ -59,7 +59,6 @@ impl Material<Axial> for Steel {
     }
 }
 
-#[cfg_attr(test, test)]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let report = check_material(&Steel, &MaterialCheck::new(0.01))?;
     println!("{report:?}");

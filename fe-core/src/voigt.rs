@@ -74,7 +74,8 @@ pub fn principal(t: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     let mut a = *t;
     let mut v = Matrix3::identity();
     let scale = a.norm();
-    if scale == 0.0 {
+    // Below, squares of the entries would underflow.
+    if scale < 1e-140 {
         return (Vector3::zeros(), v);
     }
     for _ in 0..12 {
@@ -84,12 +85,12 @@ pub fn principal(t: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
         }
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
             let apq = a[(p, q)];
-            if apq.abs() <= 1e-300 {
+            if apq.abs() <= 1e-17 * scale {
                 continue;
             }
-            let theta = (a[(q, q)] - a[(p, p)]) / (2.0 * apq);
-            let sign = if theta >= 0.0 { 1.0 } else { -1.0 };
-            let tan = sign / (theta.abs() + (theta * theta + 1.0).sqrt());
+            let (gap, twice) = (a[(q, q)] - a[(p, p)], 2.0 * apq);
+            let sign = if gap >= 0.0 { 1.0 } else { -1.0 };
+            let tan = sign * twice / (gap.abs() + (gap * gap + twice * twice).sqrt());
             let c = 1.0 / (tan * tan + 1.0).sqrt();
             let s = tan * c;
             let r = 3 - p - q;

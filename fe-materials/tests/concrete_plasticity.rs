@@ -200,6 +200,37 @@ fn half_steps_converge() {
     }
 }
 
+/// A strain without physical meaning is answered or refused, but never a panic or an endless loop; on the
+/// meridians, where two principal stresses are equal, the return works like elsewhere.
+#[test]
+fn absurd_and_degenerate_strains() {
+    for case in Case::all(27.5) {
+        let mut trial = vec![0.0; 7];
+        for size in [1e-300, 1e-160, 1e-12, 1.0, 1e6, 1e150, 1e300] {
+            for strain in [
+                [-1.0, 0.3, 0.2, 0.5, 0.0, 0.1],
+                [1.0, 2.0, -1.0, 0.0, 3.0, 0.0],
+            ] {
+                let strain = Vector6::from(strain) * size;
+                let answer = case.law.update(&strain, &[0.0; 7], &mut trial, &CONTEXT);
+                assert!(size > 1.0 || answer.is_ok(), "{size}: {answer:?}");
+            }
+        }
+        for (a, b) in [
+            (-1e-3, 2e-4),
+            (2e-4, -1e-3),
+            (-1e-3, -1e-3),
+            (1e-3, 1e-3),
+            (-1e-3, 0.0),
+        ] {
+            let mut state = vec![0.0; 7];
+            let stress = case.update(&Vector6::new(a, b, b, 0.0, 0.0, 0.0), &mut state);
+            assert_abs_diff_eq!(stress[1], stress[2], epsilon = 1e-12 * stress.amax());
+            assert!(case.overshoot(&stress, &state) <= 1e-8);
+        }
+    }
+}
+
 /// A reproducible sequence of numbers in [-1, 1).
 fn uniform(mut seed: u64) -> impl FnMut() -> f64 {
     move || {

@@ -30,9 +30,11 @@ pub struct Stepping {
 /// Longest step over the first one.
 const LONGEST: f64 = 2.0;
 /// First step over the shortest one.
-const SHORTEST: f64 = 32.0;
+const SHORTEST: f64 = 16.0;
 /// Steps with fewer iterations are followed by longer ones.
 const EASY: usize = 20;
+/// How much longer.
+const GROWTH: f64 = 1.5;
 
 impl Stepping {
     fn control(&self) -> StepControl {
@@ -41,6 +43,7 @@ impl Stepping {
             shortest: self.initial_mm / SHORTEST,
             criterion: self.criterion,
             easy: EASY,
+            growth: GROWTH,
             on_failure: OnFailure::Flag,
             ..StepControl::new(self.initial_mm, self.until_mm)
         }
@@ -61,20 +64,23 @@ pub struct Reading {
 }
 
 /// Displacements and states of an accepted step.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Snapshot {
+    /// Deflection (mm).
+    pub deflection_mm: f64,
     /// Displacements of all DOFs (mm).
     pub displacement: Vec<f64>,
     /// States of all elements.
-    pub state: Vec<f64>,
+    pub state: StateStore,
 }
 
 impl Snapshot {
     /// The accepted state of a stage.
-    pub fn of(displacement: &[f64], state: &StateStore) -> Self {
+    pub fn of(stage: &Stage<'_>, deflection_mm: f64) -> Self {
         Self {
-            displacement: displacement.to_vec(),
-            state: state.all_committed().to_vec(),
+            deflection_mm,
+            displacement: stage.displacement().to_vec(),
+            state: stage.state().clone(),
         }
     }
 }
@@ -108,16 +114,14 @@ pub trait Observer {
 pub struct Outcome {
     /// Load path, one point per accepted step.
     pub path: Vec<PathPoint>,
-    /// State at the largest load up to the fall.
-    pub peak: Snapshot,
+    /// State at the largest load up to the fall; `None` without a step.
+    pub peak: Option<Snapshot>,
     /// State at the last accepted step.
     pub last: Snapshot,
     /// Sum of the support reactions under self weight, whole width (kN).
     pub self_weight_kn: f64,
-    /// Work done in the load stage.
-    pub counters: Counters,
-    /// Wall time by phase in the load stage.
-    pub times: PhaseTimes,
+    /// Work done and wall time by phase, stage by stage.
+    pub work: Vec<(Counters, PhaseTimes)>,
     /// Why the path ended.
     pub stop: Result<String, SolverError>,
 }
@@ -137,6 +141,7 @@ pub fn analyse(
     let mut state = StateStore::new(beam.model.elements());
     let zero = vec![0.0; beam.model.dofs().len()];
     let mut origin = Origin::default();
+    let mut work = Vec::new();
     let start = {
         let mut stage = Stage::new(&beam.model, beam.weight.clone(), &mut state, zero)?;
         let mut recorder = WeightRecorder {
@@ -149,6 +154,7 @@ pub fn analyse(
             ..StepControl::new(1.0, 1.0)
         };
         control.run(&mut stage, driver, &mut recorder)?;
+        work.push((*stage.counters(), *stage.times()));
         stage.displacement().to_vec()
     };
     let mut stage = Stage::new(&beam.model, beam.loading.clone(), &mut state, start)?;
@@ -160,17 +166,18 @@ pub fn analyse(
         path: Vec::new(),
         best: 0,
         fell: false,
-        peak: Snapshot::default(),
+        peak: None,
     };
     let stop = stepping.control().run(&mut stage, driver, &mut recorder);
+    work.push((*stage.counters(), *stage.times()));
     let LoadRecorder { path, peak, .. } = recorder;
+    let last = path.last().map_or(0.0, |p| p.deflection);
     Ok(Outcome {
         path,
         peak,
-        last: Snapshot::of(stage.displacement(), stage.state()),
+        last: Snapshot::of(&stage, last),
         self_weight_kn: 2.0 * origin.reactions.iter().sum::<f64>() / 1e3,
-        counters: *stage.counters(),
-        times: *stage.times(),
+        work,
         stop,
     })
 }
@@ -234,7 +241,7 @@ struct LoadRecorder<'a> {
     /// Index of the largest load so far, until the load has fallen from it.
     best: usize,
     fell: bool,
-    peak: Snapshot,
+    peak: Option<Snapshot>,
 }
 
 impl Recorder for LoadRecorder<'_> {
@@ -255,7 +262,7 @@ impl Recorder for LoadRecorder<'_> {
         let (best, now) = (self.path[self.best], self.path[self.path.len() - 1]);
         if !self.fell && (self.path.len() == 1 || now.load > best.load) {
             self.best = self.path.len() - 1;
-            self.peak = Snapshot::of(view.stage.displacement(), view.stage.state());
+            self.peak = Some(Snapshot::of(view.stage, now.deflection));
         }
         self.fell |= now.load < (1.0 - CAPACITY_FALL) * best.load;
         if let Continue::Stop(reason) = self.observer.step(view, &reading)? {

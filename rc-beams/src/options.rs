@@ -103,11 +103,17 @@ pub enum Driver {
 pub enum Fields {
     /// No step
     None,
-    /// The last step
+    /// The peak and the last step
+    #[default]
     Last,
     /// Every accepted step
-    #[default]
     All,
+}
+
+/// Name of a value, as on the command line.
+pub fn name(value: &impl ValueEnum) -> String {
+    let shown = value.to_possible_value();
+    shown.map_or_else(String::new, |v| v.get_name().to_owned())
 }
 
 /// Numbers of elements along, up and across the beam.

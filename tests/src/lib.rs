@@ -5,7 +5,9 @@
 
 pub mod beam;
 pub mod conditions;
+pub mod cube;
 pub mod dense;
+pub mod figure;
 pub mod laws;
 pub mod mesh;
 pub mod solve;

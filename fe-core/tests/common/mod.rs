@@ -22,15 +22,15 @@ pub struct Elastic {
 }
 
 impl Elastic {
-    pub fn new(stiffness: Matrix6<f64>) -> Self {
+    pub fn new(stiffness: &Matrix6<f64>) -> Self {
         Self {
-            tangent: stiffness,
-            secant: stiffness,
+            tangent: *stiffness,
+            secant: *stiffness,
         }
     }
 
     pub fn isotropic(young: f64, poisson: f64) -> Self {
-        Self::new(voigt::isotropic(young, poisson))
+        Self::new(&voigt::isotropic(young, poisson))
     }
 }
 

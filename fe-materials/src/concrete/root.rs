@@ -35,7 +35,7 @@ pub(crate) fn bracketed_root(
     tolerance: f64,
     mut f: impl FnMut(f64) -> Result<(f64, f64), NotConverged>,
 ) -> Result<f64, NotConverged> {
-    let mut x = start.clamp(low, high);
+    let mut x = start.max(low).min(high);
     let mut previous = f64::INFINITY;
     let mut residual = f64::NAN;
     for _ in 0..MAX_ITERATIONS {

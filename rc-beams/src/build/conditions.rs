@@ -15,6 +15,8 @@ const ON: f64 = 1e-6;
 pub struct Line {
     /// Position along the beam (mm).
     pub x: f64,
+    /// Height above the soffit (mm).
+    pub y: f64,
     /// Nodes.
     nodes: Vec<NodeId>,
     /// Vertical DOFs.
@@ -32,7 +34,12 @@ impl Line {
             .iter()
             .map(|&n| model.dof(n, Dof::Uy))
             .collect::<Result<_, _>>()?;
-        Ok(Self { x, nodes, vertical })
+        Ok(Self {
+            x,
+            y,
+            nodes,
+            vertical,
+        })
     }
 
     /// Force (N) on the line, half width, from the reaction of each DOF; positive upwards.

@@ -7,12 +7,14 @@ use fe_core::material::{Material, MaterialError};
 use fe_core::mesh::Mesh;
 use fe_materials::Elastic;
 use fe_materials::concrete::{
-    Calibration, ConcreteScalars, Ottosen, Reference, ReferenceParameters, TensionStiffening,
+    Calibration, ConcreteScalars, Objective, Ottosen, Reference, ReferenceParameters,
+    TensionStiffening,
 };
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 
+use super::ModelSettings;
 use super::mesh::{concrete_block, load_plate, support_plate};
-use super::{ConcreteLaw, ModelSettings, Preset};
+use crate::options::{Law, Preset};
 use crate::spec::Specimen;
 
 /// A law shared by the elements of a block.
@@ -50,8 +52,8 @@ pub(super) fn mean_strength(specimen: &Specimen, preset: Preset) -> Result<f64, 
     Ok(properties(specimen, preset)?.fcm_mpa)
 }
 
-/// Law of the concrete in zones with or without stirrups. The fixed-crack law takes the reported modulus;
-/// the reference takes that of the Model Code.
+/// Law of the concrete in zones with or without stirrups. The fixed-crack law takes the reported modulus,
+/// the others that of the Model Code.
 fn concrete(
     specimen: &Specimen,
     settings: &ModelSettings,
@@ -59,7 +61,7 @@ fn concrete(
 ) -> Result<SolidLaw, MaterialError> {
     let c = properties(specimen, settings.preset)?;
     Ok(match settings.law {
-        ConcreteLaw::FixedCrack => {
+        Law::FixedCrack => {
             let young = specimen.concrete.young_mpa.get();
             let parameters = FixedCrackParameters {
                 poisson: specimen.concrete.poisson.get(),
@@ -69,7 +71,7 @@ fn concrete(
             let onset = Ottosen::new(&Calibration::model_code(c.fcm_mpa, c.fctm_mpa))?;
             Arc::new(FixedCrack::new(parameters, Some(onset))?)
         }
-        ConcreteLaw::Reference => {
+        Law::Reference => {
             let stiffening = if stirrups {
                 TensionStiffening::Stirrups
             } else {
@@ -77,6 +79,7 @@ fn concrete(
             };
             Arc::new(Reference::new(&ReferenceParameters::new(c, stiffening))?)
         }
+        Law::Objective => Arc::new(Objective::new(&c)?),
     })
 }
 

@@ -21,7 +21,7 @@ use fe_elements::{BandWidth, Hex20, HexRule, loads};
 pub use conditions::{Line, Measures};
 pub use gauges::Gauge;
 pub use reinforcement::{BarKind, BarRecord};
-pub use settings::{ConcreteLaw, ModelSettings, Preset};
+pub use settings::ModelSettings;
 
 use crate::spec::Specimen;
 

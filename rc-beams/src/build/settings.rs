@@ -2,46 +2,8 @@
 
 use fe_elements::{BandWidth, HexRule};
 
+use crate::options::{Law, Preset};
 use crate::spec::Specimen;
-
-/// Law of the concrete.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ConcreteLaw {
-    /// Fixed orthogonal smeared cracks with history-based shear transfer.
-    FixedCrack,
-    /// The law of the reference: isochoric plasticity, fixed cracks, tension stiffening.
-    Reference,
-}
-
-impl ConcreteLaw {
-    /// Name, as on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::FixedCrack => "fixed-crack",
-            Self::Reference => "reference",
-        }
-    }
-}
-
-/// A named set of settings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Preset {
-    /// The reported strength is a mean, full integration, dowel action of the bars.
-    Default,
-    /// The reported strength is a characteristic value (as the reference reads it) with the reported
-    /// tensile strength, reduced integration, no dowel action.
-    Characteristic,
-}
-
-impl Preset {
-    /// Name, as on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Default => "default",
-            Self::Characteristic => "characteristic",
-        }
-    }
-}
 
 /// Settings of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +15,7 @@ pub struct ModelSettings {
     /// Integration of the concrete.
     pub integration: HexRule,
     /// Law of the concrete.
-    pub law: ConcreteLaw,
+    pub law: Law,
     /// Dowel action of bars against shear across cracks.
     pub dowel: bool,
     /// Floor of the shear factor of open cracks (-).
@@ -71,7 +33,7 @@ impl ModelSettings {
             preset,
             mesh: [60, 4, 1],
             integration,
-            law: ConcreteLaw::FixedCrack,
+            law: Law::FixedCrack,
             dowel,
             shear_floor,
         }
@@ -86,8 +48,8 @@ impl ModelSettings {
 
     const fn band_factor(&self) -> f64 {
         match self.law {
-            ConcreteLaw::FixedCrack => 0.5,
-            ConcreteLaw::Reference => 1.0,
+            Law::FixedCrack => 0.5,
+            Law::Reference | Law::Objective => 1.0,
         }
     }
 

@@ -6,7 +6,8 @@ use fe_solver::recorder::{Continue, Recorder, StepView};
 use fe_solver::secant::SecantAnderson;
 use fe_solver::stage::Stage;
 
-use super::{BarKind, Beam, BuildError, ModelSettings, Preset};
+use super::{BarKind, Beam, BuildError, ModelSettings};
+use crate::options::Preset;
 use crate::spec::{BUILTIN, Specimen, read};
 
 fn specimen(name: &str) -> Specimen {

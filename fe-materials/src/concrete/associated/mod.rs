@@ -102,14 +102,16 @@ impl Associated {
         }
         let bracket = (self.curve.eta(kappa), last);
         let tolerance = RETURN_TOLERANCE * f / self.elastic.young;
+        let mut near = None;
         let eta = bracketed_root(bracket, first, tolerance, |eta| {
             let point = self.curve.at(eta);
-            let projected = projection.onto(point.stress)?;
-            let slope = -point.stress_slope / projected.softening() - point.kappa_slope;
+            let projected = projection.onto(point.stress, near.as_ref())?;
+            near = Some(projected);
+            let slope = -point.stress_slope / projected.level_drop() - point.kappa_slope;
             Ok((projected.dlam - (point.kappa - kappa), slope))
         })?;
         let point = self.curve.at(eta);
-        Ok((projection.onto(point.stress)?, point))
+        Ok((projection.onto(point.stress, near.as_ref())?, point))
     }
 
     fn tangent(

@@ -31,6 +31,8 @@ const APEX_TOLERANCE: f64 = 1e-14;
 pub(super) struct Projection<'a> {
     surface: &'a Ottosen,
     elastic: &'a Elasticity,
+    /// F of the trial stress (MPa).
+    effective: f64,
     mean: f64,
     radius: f64,
     angle: f64,
@@ -51,11 +53,20 @@ pub(super) struct Projected {
     pub(super) gradient: Vector3<f64>,
     /// Q = (C + dlam d2F/dsigma2)^-1: dsigma = Q (deps - a ddlam).
     pub(super) stiffness: Matrix3<f64>,
+    place: Place,
+}
+
+/// Where a projection lies: multiplier w (MPa), sqrt(J2) (MPa) and Lode angle (rad).
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    w: f64,
+    r: f64,
+    angle: f64,
 }
 
 impl Projected {
     /// -ds/ddlam = a Q a (MPa): how fast the level falls with the plastic multiplier.
-    pub(super) fn softening(&self) -> f64 {
+    pub(super) fn level_drop(&self) -> f64 {
         self.gradient.dot(&(self.stiffness * self.gradient))
     }
 }
@@ -71,13 +82,15 @@ impl<'a> Projection<'a> {
         let radius = (0.5 * trial.add_scalar(-mean).norm_squared()).sqrt();
         // Exact on the meridians, where cos 3f is stationary.
         let angle = (3.0_f64.sqrt() * (trial[1] - trial[2]))
-            .atan2((trial[0] - trial[1]) + (trial[0] - trial[2]));
+            .atan2((trial[0] - trial[1]) + (trial[0] - trial[2]))
+            .min(FRAC_PI_3);
         let apex_angle = apex_angle(surface, angle)?;
         let [lambda, ..] = surface.polar_lambda(apex_angle);
         let apex = radius * (apex_angle - angle).cos() / lambda;
         Ok(Self {
             surface,
             elastic,
+            effective: surface.principal_effective_stress(trial),
             mean,
             radius,
             angle,
@@ -86,74 +99,37 @@ impl<'a> Projection<'a> {
         })
     }
 
-    /// The projection on F <= `level`, for a trial stress outside.
-    pub(super) fn onto(&self, level: f64) -> Result<Projected, NotConverged> {
-        let (alpha, beta, shear) = (
-            self.surface.alpha(),
-            self.surface.beta(),
-            self.elastic.shear,
-        );
-        let p_slope = -3.0 * beta * self.elastic.bulk / shear;
-        // Beyond both bounds r = 0 and p <= 0, hence F = 0.
-        let last = self.apex.max(-self.mean / p_slope);
-        let mut found = (0.0, 0.0, 0.0);
-        let tolerance = RETURN_TOLERANCE * level;
-        let w = bracketed_root((0.0, last), 0.0, tolerance, |w| {
-            let mean = self.mean + p_slope * w;
-            let (f, slope);
-            if w < self.apex {
-                let angle = self.angle_at(w)?;
-                let [lambda, d_lambda, d2_lambda] = self.surface.polar_lambda(angle);
-                let along = self.radius * (angle - self.angle).cos();
-                let stiffening = 1.0 + 2.0 * alpha * w / level;
-                let r = (along - w * lambda) / stiffening;
-                let r_slope = -(lambda + 2.0 * alpha * r / level) / stiffening;
-                let lambda_slope = -d_lambda * d_lambda / (along + w * d2_lambda);
-                let s;
-                (f, s) = self.surface.polar_value(lambda, r, 3.0 * mean);
-                let a_slope = lambda * r_slope + r * lambda_slope + 3.0 * beta * p_slope;
-                slope = (f * a_slope + 2.0 * alpha * r * r_slope) / s;
-                found = (mean, r, angle);
-            } else {
-                (f, slope) = ((3.0 * beta * mean).max(0.0), 3.0 * beta * p_slope);
-                found = (mean, 0.0, self.apex_angle);
-            }
-            Ok((f - level, slope))
-        })?;
-        let (mean, r, angle) = found;
-        let dlam = w / shear * (1.0 + alpha * (r / level).powi(2));
-        let stress = Vector3::from_fn(|i, _| {
-            mean + 2.0 / 3.0_f64.sqrt() * r * (angle - i as f64 * TAU / 3.0).cos()
-        });
-        self.projected(stress, dlam, r > 0.0)
-    }
-
-    /// Lode angle at a multiplier below the apex: r_tr sin(f - f_tr) + w lambda'(f) = 0.
-    fn angle_at(&self, w: f64) -> Result<f64, NotConverged> {
-        let bracket = (self.angle, self.apex_angle);
-        bracketed_root(
-            bracket,
-            self.angle,
-            ANGLE_TOLERANCE * self.radius,
-            |angle| {
-                let [_, slope, curvature] = self.surface.polar_lambda(angle);
-                let (sin, cos) = (angle - self.angle).sin_cos();
-                Ok((
-                    -self.radius * sin - w * slope,
-                    -self.radius * cos - w * curvature,
-                ))
-            },
-        )
-    }
-
-    fn projected(
+    /// The projection on F <= `level`; one on a level near by, if there is one, saves iterations.
+    pub(super) fn onto(
         &self,
-        stress: Vector3<f64>,
-        dlam: f64,
-        smooth: bool,
+        level: f64,
+        near: Option<&Projected>,
     ) -> Result<Projected, NotConverged> {
+        let trial = Place {
+            w: 0.0,
+            r: self.radius,
+            angle: self.angle,
+        };
+        let mut at = near.map_or(trial, |p| p.place);
+        if self.effective <= level {
+            at = trial;
+        } else {
+            // Beyond both bounds r = 0 and p <= 0, hence F = 0.
+            let last = self.apex.max(-self.mean / self.mean_slope());
+            bracketed_root((0.0, last), at.w, RETURN_TOLERANCE * level, |w| {
+                let (f, slope);
+                (at, f, slope) = self.place(w, level, at.angle)?;
+                Ok((f - level, slope))
+            })?;
+        }
+        let dlam =
+            at.w / self.elastic.shear * (1.0 + self.surface.alpha() * (at.r / level).powi(2));
+        let stress = Vector3::from_fn(|i, _| {
+            let angle = at.angle - i as f64 * TAU / 3.0;
+            self.mean + self.mean_slope() * at.w + 2.0 / 3.0_f64.sqrt() * at.r * angle.cos()
+        });
         let (effective, gradient, hessian) = self.surface.principal_derivatives(&stress);
-        let stiffness = if smooth {
+        let stiffness = if at.r > 0.0 {
             let singular = NotConverged {
                 residual: effective,
                 iterations: 0,
@@ -169,6 +145,54 @@ impl<'a> Projection<'a> {
             dlam,
             gradient,
             stiffness,
+            place: at,
+        })
+    }
+
+    /// dp/dw.
+    fn mean_slope(&self) -> f64 {
+        -3.0 * self.surface.beta() * self.elastic.bulk / self.elastic.shear
+    }
+
+    /// The stress at a multiplier, its F and dF/dw; `start` approximates the Lode angle.
+    fn place(&self, w: f64, level: f64, start: f64) -> Result<(Place, f64, f64), NotConverged> {
+        let (alpha, beta) = (self.surface.alpha(), self.surface.beta());
+        let mean = self.mean + self.mean_slope() * w;
+        let axial_slope = 3.0 * beta * self.mean_slope();
+        if w >= self.apex {
+            let place = Place {
+                w,
+                r: 0.0,
+                angle: self.apex_angle,
+            };
+            return Ok((place, (3.0 * beta * mean).max(0.0), axial_slope));
+        }
+        let angle = self.angle_at(w, start)?;
+        let [lambda, d_lambda, d2_lambda] = self.surface.polar_lambda(angle);
+        let along = self.radius * (angle - self.angle).cos();
+        let stiffening = 1.0 + 2.0 * alpha * w / level;
+        let r = (along - w * lambda) / stiffening;
+        let (f, s) = self.surface.polar_value(lambda, r, 3.0 * mean);
+        let r_slope = -(lambda + 2.0 * alpha * r / level) / stiffening;
+        let lambda_slope = -d_lambda * d_lambda / (along + w * d2_lambda);
+        let a_slope = lambda * r_slope + r * lambda_slope + axial_slope;
+        Ok((
+            Place { w, r, angle },
+            f,
+            (f * a_slope + 2.0 * alpha * r * r_slope) / s,
+        ))
+    }
+
+    /// Lode angle at a multiplier below the apex: r_tr sin(f - f_tr) + w lambda'(f) = 0.
+    fn angle_at(&self, w: f64, start: f64) -> Result<f64, NotConverged> {
+        let bracket = (self.angle, self.apex_angle);
+        bracketed_root(bracket, start, ANGLE_TOLERANCE * self.radius, |angle| {
+            let [_, slope, curvature] = self.surface.polar_lambda(angle);
+            let (sin, cos) = (angle - self.angle).sin_cos();
+            Ok((
+                -self.radius * sin - w * slope,
+                -self.radius * cos - w * curvature,
+            ))
         })
     }
 }

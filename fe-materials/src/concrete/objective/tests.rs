@@ -230,6 +230,18 @@ fn points_that_would_snap_back_are_refused() {
     assert!(law.update(&nan, &[0.0; 10], &mut trial, &CONTEXT).is_err());
 }
 
+/// A strain without physical meaning is answered or refused, but never a panic.
+#[test]
+fn absurd_strains() {
+    let (law, committed) = (law(), Point::new(CONTEXT).state);
+    let mut trial = vec![0.0; committed.len()];
+    for size in [1e-300, 1e-12, 1.0, 1e6, 1e150, 1e300] {
+        let strain = Vector6::new(1.0, -2.0, 0.5, 3.0, 0.0, -1.0) * size;
+        let answer = law.update(&strain, &committed, &mut trial, &CONTEXT);
+        assert!(size > 1.0 || answer.is_ok(), "{size}: {answer:?}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 5000, ..ProptestConfig::default() })]
 

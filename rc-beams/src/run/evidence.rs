@@ -1,0 +1,93 @@
+//! What the rules for the mode of failure look at, read off a state of the model.
+
+use fe_core::model::{Model, ModelError};
+
+use crate::analysis::Snapshot;
+use crate::build::{BarKind, Beam};
+use crate::results::evidence::{self, BarReach, ConcretePoint, Layout, ShearSpan};
+use crate::spec::Specimen;
+
+/// Shear spans: between a support and a load that are neighbours.
+pub(super) fn layout(specimen: &Specimen, beam: &Beam) -> Layout {
+    let supports = specimen.supports.iter().map(|s| (s.x_mm.get(), true));
+    let loads = specimen.loads.iter().map(|l| (l.x_mm.get(), false));
+    let mut places: Vec<(f64, bool)> = supports.chain(loads).collect();
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let test = &specimen.measuring.test_span;
+    let middle = 0.5 * (test.x_from_mm.get() + test.x_to_mm.get());
+    let shear_spans = places
+        .windows(2)
+        .filter(|pair| pair[0].1 != pair[1].1)
+        .map(|pair| {
+            let (from_mm, to_mm) = (pair[0].0, pair[1].0);
+            let name = if (from_mm..to_mm).contains(&middle) {
+                "test span".into()
+            } else {
+                format!("shear span from {from_mm:.0} to {to_mm:.0} mm")
+            };
+            ShearSpan {
+                name,
+                from_mm,
+                to_mm,
+            }
+        })
+        .collect();
+    Layout {
+        shear_spans,
+        height_mm: specimen.beam.height_mm.get(),
+        stirrups: beam.bars.iter().filter(|b| is_stirrup(b.kind)).count(),
+    }
+}
+
+const fn is_stirrup(kind: BarKind) -> bool {
+    matches!(kind, BarKind::StirrupLeg(_))
+}
+
+/// The state of concrete and bars in a snapshot.
+pub(super) fn snapshot(beam: &Beam, at: &Snapshot) -> Result<evidence::Snapshot, ModelError> {
+    let mut concrete = Vec::new();
+    for e in beam.concrete.clone() {
+        sample(&beam.model, e, at, &mut |s| {
+            concrete.push(ConcretePoint::from(s));
+        })?;
+    }
+    let mut bars = Vec::new();
+    let mut stirrups_yielded = 0;
+    for bar in &beam.bars {
+        let mut reach = BarReach {
+            bar: bar.name.clone(),
+            x_mm: bar.ends[0][0],
+            utilisation: f64::NEG_INFINITY,
+        };
+        for e in bar.elements.clone() {
+            sample(&beam.model, e, at, &mut |s| {
+                let utilisation = s.stress[0] / bar.fy_mpa;
+                if utilisation > reach.utilisation {
+                    (reach.utilisation, reach.x_mm) = (utilisation, s.position[0]);
+                }
+            })?;
+        }
+        match bar.kind {
+            BarKind::Longitudinal => bars.push(reach),
+            BarKind::StirrupLeg(_) if reach.utilisation >= 1.0 => stirrups_yielded += 1,
+            BarKind::StirrupLeg(_) | BarKind::Tie => {}
+        }
+    }
+    Ok(evidence::Snapshot {
+        concrete,
+        bars,
+        stirrups_yielded,
+    })
+}
+
+fn sample(
+    model: &Model,
+    element: usize,
+    at: &Snapshot,
+    visit: &mut dyn FnMut(&fe_core::element::PointSample<'_>),
+) -> Result<(), ModelError> {
+    let u = model.gather(element, &at.displacement);
+    model.elements()[element]
+        .sample(&u, at.state.committed(element), &mut |s| visit(&s))
+        .map_err(|source| model.locate(element, source))
+}

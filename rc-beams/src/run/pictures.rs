@@ -1,0 +1,103 @@
+//! Pictures of a run: the load-deflection curve, the cracks at the peak.
+
+use fe_solver::capacity::{Capacity, Verdict};
+
+use crate::analysis::Outcome;
+use crate::build::{BarKind, BarRecord, Beam};
+use crate::results::crack::CrackView;
+use crate::results::curve::Curve;
+use crate::results::drawing::Picture;
+use crate::results::error::ResultsError;
+use crate::results::evidence::Snapshot;
+use crate::results::folder::Folder;
+use crate::results::summary::Setup;
+use crate::spec::Specimen;
+
+/// Points closer than this (mm) to a plane lie in it.
+const ON: f64 = 1e-6;
+
+/// `curve.svg` and `curve.png`.
+pub(super) fn curve(
+    folder: &Folder,
+    specimen: &Specimen,
+    setup: &Setup,
+    outcome: &Outcome,
+    (capacity, verdict): (&Capacity, &Verdict),
+) -> Result<(), ResultsError> {
+    let title = format!(
+        "{}; {}, {} integration, {}",
+        specimen.title, setup.law, setup.integration, setup.mesh
+    );
+    let curve = Curve {
+        specimen: &specimen.name,
+        title: &title,
+        path: &outcome.path,
+        capacity,
+        verdict,
+        test_load_kn: specimen.test.as_ref().map(|t| t.load_kn.get()),
+    };
+    curve.save_svg(folder, "curve")?;
+    curve.save_png(folder, "curve")
+}
+
+/// `crack.svg`: the integration points next to the side face, at the peak.
+pub(super) fn crack(
+    folder: &Folder,
+    specimen: &Specimen,
+    beam: &Beam,
+    peak: &Snapshot,
+    title: &str,
+) -> Result<(), ResultsError> {
+    let nodes = beam.model.mesh().nodes();
+    let cells = beam
+        .model
+        .mesh()
+        .blocks()
+        .iter()
+        .flat_map(fe_core::mesh::Block::cells);
+    let elements: Vec<[[f64; 2]; 2]> = cells
+        .map(|cell| (nodes[cell[0]], nodes[cell[6]]))
+        .filter(|(low, _)| low[2] < ON)
+        .map(|(low, high)| [[low[0], low[1]], [high[0], high[1]]])
+        .collect();
+    let outermost = peak
+        .concrete
+        .iter()
+        .map(|p| p.position[2])
+        .fold(0.0, f64::max);
+    let points: Vec<_> = peak
+        .concrete
+        .iter()
+        .filter(|p| p.position[2] > outermost - ON)
+        .copied()
+        .collect();
+    let lines = |of: &dyn Fn(&BarKind) -> bool| -> Vec<Vec<[f64; 2]>> {
+        let bars = beam.bars.iter().filter(|bar| of(&bar.kind));
+        bars.map(side_view).collect()
+    };
+    let view = CrackView {
+        specimen: &specimen.name,
+        title,
+        elements: &elements,
+        bars: &lines(&|kind| *kind == BarKind::Longitudinal),
+        stirrups: &lines(&|kind| matches!(kind, BarKind::StirrupLeg(_))),
+        supports: &beam
+            .measures
+            .supports
+            .iter()
+            .map(|l| [l.x, l.y])
+            .collect::<Vec<_>>(),
+        loads: &beam
+            .measures
+            .loads
+            .iter()
+            .map(|l| [l.x, l.y])
+            .collect::<Vec<_>>(),
+        points: &points,
+    };
+    view.save_svg(folder, "crack")
+}
+
+fn side_view(bar: &BarRecord) -> Vec<[f64; 2]> {
+    bar.ends.iter().map(|p| [p[0], p[1]]).collect()
+}

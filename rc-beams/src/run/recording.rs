@@ -1,0 +1,154 @@
+//! Writes what a run says while it runs.
+
+use std::io;
+use std::time::{Duration, Instant};
+
+use fe_core::output::FieldSeries;
+use fe_solver::recorder::{Continue, IterationRecord, StepView};
+
+use crate::analysis::{Observer, Reading, Snapshot};
+use crate::build::Beam;
+use crate::options::Fields;
+use crate::output::OutputError;
+use crate::results::error::ResultsError;
+use crate::results::folder::Folder;
+use crate::results::history::{History, StepRow};
+use crate::results::interrupt::Interrupt;
+use crate::results::progress::{Progress, Status};
+
+/// Tables, fields and live progress of one beam.
+pub(super) struct Recording<'a> {
+    beam: &'a Beam,
+    folder: Folder,
+    history: History,
+    fields: Option<FieldSeries>,
+    every_step: bool,
+    progress: Progress,
+    interrupt: &'a Interrupt,
+    criterion: f64,
+    spent: Duration,
+}
+
+impl<'a> Recording<'a> {
+    pub(super) fn start(
+        name: &str,
+        beam: &'a Beam,
+        folder: &Folder,
+        fields: Fields,
+        plan: (f64, f64),
+        interrupt: &'a Interrupt,
+    ) -> Result<Self, ResultsError> {
+        let supports: Vec<String> = beam
+            .measures
+            .supports
+            .iter()
+            .map(|s| format!("reaction_x{}_kn", s.x))
+            .collect();
+        let gauges: Vec<String> = beam.gauges.iter().map(|g| g.name.clone()).collect();
+        let fields_series = match fields {
+            Fields::None => None,
+            Fields::Last | Fields::All => Some(series(folder)?),
+        };
+        let (until_mm, criterion) = plan;
+        Ok(Self {
+            beam,
+            folder: folder.clone(),
+            history: History::create(folder, &supports, &gauges)?,
+            fields: fields_series,
+            every_step: fields == Fields::All,
+            progress: Progress::start(name, until_mm),
+            interrupt,
+            criterion,
+            spent: Duration::ZERO,
+        })
+    }
+
+    /// Ends; writes the fields of the given states, unless every step has been written. Returns the wall
+    /// time spent writing.
+    pub(super) fn finish(mut self, states: &[&Snapshot]) -> Result<Duration, ResultsError> {
+        let begin = Instant::now();
+        if let Some(series) = self.fields.as_mut().filter(|_| !self.every_step) {
+            for s in states {
+                series
+                    .record(s.deflection_mm, &self.beam.model, &s.displacement, &s.state)
+                    .map_err(|source| refused(&self.folder, source))?;
+            }
+        }
+        self.progress.finish();
+        Ok(self.spent + begin.elapsed())
+    }
+
+    fn record(&mut self, view: &StepView<'_>, reading: &Reading, step: usize) -> io::Result<()> {
+        let begin = Instant::now();
+        let stage = view.stage;
+        let row = StepRow {
+            step,
+            deflection_mm: reading.deflection_mm,
+            load_kn: reading.load_kn,
+            p_star_kn: (step > 0).then_some(reading.work_conjugate_load_kn),
+            reactions_kn: reading.reactions_kn.clone(),
+            negative_pivots: view.negative_pivots,
+            residual: view.residual,
+            criterion: self.criterion,
+            iterations: view.iterations,
+            attempts: view.attempts,
+            held: view.held,
+            flagged: view.flagged,
+            step_mm: if step > 0 { view.increment } else { 0.0 },
+            factorisations: stage.counters().factorisations,
+            force_evaluations: stage.counters().force_evaluations,
+        };
+        let strains = self
+            .beam
+            .gauges
+            .iter()
+            .map(|g| g.read(&self.beam.model, stage.displacement(), stage.state()))
+            .collect::<Result<Vec<f64>, _>>()
+            .map_err(io::Error::other)?;
+        self.history.step(&row, &strains)?;
+        if let Some(series) = self.fields.as_mut().filter(|_| self.every_step) {
+            let (model, u) = (&self.beam.model, stage.displacement());
+            series
+                .record(reading.deflection_mm, model, u, stage.state())
+                .map_err(io::Error::other)?;
+        }
+        self.progress.step(Status {
+            step,
+            deflection_mm: reading.deflection_mm,
+            load_kn: reading.load_kn,
+            iterations: view.iterations,
+            flagged: view.flagged,
+        });
+        self.spent += begin.elapsed();
+        Ok(())
+    }
+}
+
+fn series(folder: &Folder) -> Result<FieldSeries, ResultsError> {
+    FieldSeries::create(folder.path(), "fields").map_err(|source| refused(folder, source))
+}
+
+/// Fields that cannot be written.
+fn refused(folder: &Folder, source: fe_core::output::OutputError) -> ResultsError {
+    ResultsError::Output(OutputError {
+        path: folder.path().join("fields.pvd"),
+        source: io::Error::other(source),
+    })
+}
+
+impl Observer for Recording<'_> {
+    fn weight(&mut self, view: &StepView<'_>, reading: &Reading) -> io::Result<()> {
+        self.record(view, reading, 0)
+    }
+
+    fn iteration(&mut self, record: &IterationRecord) -> io::Result<()> {
+        self.interrupt.check()?;
+        self.progress.iteration(record.step, record.iteration);
+        Ok(self.history.iteration(record)?)
+    }
+
+    fn step(&mut self, view: &StepView<'_>, reading: &Reading) -> io::Result<Continue> {
+        self.record(view, reading, view.step)?;
+        Ok(Continue::Yes)
+    }
+}
