@@ -43,7 +43,7 @@ pub struct BarReach {
 
 /// A state of the beam, as far as its failure is concerned.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Evidence {
+pub struct Snapshot {
     /// Concrete, the same points in the same order in every snapshot of a beam.
     pub concrete: Vec<ConcretePoint>,
     /// Longitudinal bars, one entry per bar and stretch.

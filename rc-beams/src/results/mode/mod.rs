@@ -30,7 +30,7 @@ use std::fmt;
 use fe_solver::capacity::DROP_FALL;
 use serde::{Serialize, Serializer};
 
-use super::evidence::{BarReach, ConcretePoint, Evidence, Layout};
+use super::evidence::{BarReach, ConcretePoint, Layout, Snapshot};
 
 /// Angles between crack normal and beam axis that make a crack diagonal (degrees).
 const DIAGONAL_DEG: std::ops::RangeInclusive<f64> = 25.0..=70.0;
@@ -91,7 +91,7 @@ pub struct Diagnosis {
 impl Diagnosis {
     /// Judges a beam by its states at the peak and at the end of the drop after it, over which the load
     /// falls by the share `drop`.
-    pub fn of(layout: &Layout, peak: &Evidence, end: &Evidence, drop: f64) -> Self {
+    pub fn of(layout: &Layout, peak: &Snapshot, end: &Snapshot, drop: f64) -> Self {
         let measures = Measures::of(layout, peak, end);
         let mode = if drop < DROP_FALL {
             FailureMode::None
@@ -122,7 +122,7 @@ struct Measures {
 }
 
 impl Measures {
-    fn of(layout: &Layout, peak: &Evidence, end: &Evidence) -> Self {
+    fn of(layout: &Layout, peak: &Snapshot, end: &Snapshot) -> Self {
         let spans = layout.shear_spans.len();
         let bars = peak.bars.iter();
         let bar = bars.max_by(|a, b| a.utilisation.total_cmp(&b.utilisation));

@@ -20,7 +20,7 @@ fn layout() -> Layout {
 }
 
 /// 30 points at mid-height, 100 mm apart, with a vertical crack each and a bar below yield.
-fn peak() -> Evidence {
+fn peak() -> Snapshot {
     let point = |i: u32| ConcretePoint {
         position: [50.0 + 100.0 * f64::from(i), 150.0, 37.5],
         volume: 1e6,
@@ -28,7 +28,7 @@ fn peak() -> Evidence {
         crack_normal: [1.0, 0.0, 0.0],
         crushing: 0.0,
     };
-    Evidence {
+    Snapshot {
         concrete: (0..30).map(point).collect(),
         bars: vec![
             BarReach {
@@ -47,13 +47,13 @@ fn peak() -> Evidence {
 }
 
 /// Opens a crack at point `i` whose normal is inclined by `degrees`.
-fn open(state: &mut Evidence, i: usize, degrees: f64) {
+fn open(state: &mut Snapshot, i: usize, degrees: f64) {
     let (sin, cos) = degrees.to_radians().sin_cos();
     state.concrete[i].crack_strain += 0.01;
     state.concrete[i].crack_normal = [cos, sin, 0.0];
 }
 
-fn mode(peak: &Evidence, end: &Evidence) -> FailureMode {
+fn mode(peak: &Snapshot, end: &Snapshot) -> FailureMode {
     Diagnosis::of(&layout(), peak, end, 0.3).mode
 }
 
