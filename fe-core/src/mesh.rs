@@ -104,7 +104,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// A mesh with nodes only.
+    /// A mesh with nodes (mm) only.
     ///
     /// # Errors
     ///

@@ -114,7 +114,7 @@ impl Model {
         })
     }
 
-    /// Displacements of an element, gathered from the vector of all DOFs.
+    /// Displacements (mm) of an element, gathered from the vector of all DOFs.
     pub fn gather(&self, element: usize, u: &[f64]) -> Vec<f64> {
         let dofs = self.dofs.element_dofs(self.elements[element].as_ref());
         dofs.iter().map(|&d| u[d as usize]).collect()
@@ -230,7 +230,7 @@ impl Conditions {
         Ok(())
     }
 
-    /// Constrained DOFs and their rates.
+    /// Constrained DOFs and their rates (mm per unit of the load factor).
     pub const fn prescribed(&self) -> &BTreeMap<usize, f64> {
         &self.prescribed
     }
@@ -242,7 +242,7 @@ impl Conditions {
         }
     }
 
-    /// Force per unit of the load factor, all DOFs.
+    /// Force (N) per unit of the load factor, all DOFs.
     pub fn reference(&self) -> &[f64] {
         &self.reference
     }

@@ -79,9 +79,9 @@ impl Sparsity {
         &self.row_idx
     }
 
-    /// Position of entry (i, j), `i >= j`, in the value array.
+    /// Position of entry (i, j), `i >= j`, in the value array; `None` where nothing is stored.
     pub fn position(&self, i: usize, j: usize) -> Option<usize> {
-        let column = self.col_ptr[j]..self.col_ptr[j + 1];
+        let column = *self.col_ptr.get(j)?..*self.col_ptr.get(j + 1)?;
         self.row_idx[column.clone()]
             .binary_search(&i)
             .ok()
@@ -159,6 +159,7 @@ mod tests {
         assert_eq!(pattern.row_idx(), &[0, 1, 2, 1, 2, 3, 2, 3]);
         assert_eq!(pattern.position(3, 1), Some(5));
         assert_eq!(pattern.position(3, 0), None);
+        assert_eq!(pattern.position(4, 4), None);
         let a = MatrixValues {
             lower: (1..=8).map(f64::from).collect(),
             upper: (1..=8).map(|k| f64::from(k) - 0.5).collect(),

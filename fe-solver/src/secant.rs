@@ -18,7 +18,7 @@ pub struct SecantSettings {
     /// Viscosity tau of the history within the iteration, in units of the load factor:
     /// a = d lambda/(tau + d lambda).
     pub viscosity: f64,
-    /// Iterations after which the operator is rebuilt at the current iterate.
+    /// Iterations after which the operator is rebuilt at the current iterate; 0 keeps the first.
     pub rebuild_after: usize,
     /// Viscous solves at a fixed load factor before a snap is given up.
     pub max_holds: usize,
@@ -86,9 +86,9 @@ impl SecantAnderson {
         };
         let mut anderson = Anderson::new(self.settings.depth);
         let mut best: Option<(f64, Vec<f64>)> = None;
-        let mut iterations = 0;
+        let mut iterations = 0_usize;
         loop {
-            let rebuild = iterations % self.settings.rebuild_after == 0;
+            let rebuild = iterations.is_multiple_of(self.settings.rebuild_after);
             let u = stage.compose(&free, lambda);
             let mut r = stage.residual(&u, lambda, if rebuild { &operator } else { &force })?;
             stage.latch();

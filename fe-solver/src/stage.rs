@@ -44,7 +44,8 @@ pub struct PhaseTimes {
 /// Size of a residual.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Residual {
-    /// |f_ext - f_int| on the free equations over the norm of the reactions (2-norms).
+    /// |f_ext - f_int| on the free equations over the norm of the reactions (2-norms), or over 1 N where
+    /// there is no reaction.
     pub relative: f64,
     /// Largest component (N).
     pub largest: f64,
@@ -278,8 +279,9 @@ impl<'m> Stage<'m> {
         }
     }
 
-    /// Work-conjugate load of the last evaluation: (f_int - f_dead) . du / dlambda, over all DOFs,
-    /// where du leads from the accepted displacement to `u`. Equals [`Self::load`] in equilibrium.
+    /// Work-conjugate load of the last evaluation (N, for a load factor in mm): (f_int - f_dead) . du / dlambda
+    /// over all DOFs, where du leads from the accepted displacement to `u`. Equals [`Self::load`] in
+    /// equilibrium where the factor drives displacements.
     pub fn work_conjugate_load(&self, u: &[f64], lambda: f64) -> f64 {
         let dl = lambda - self.lambda;
         let mut dead = vec![0.0; u.len()];
@@ -290,8 +292,8 @@ impl<'m> Stage<'m> {
         work / dl
     }
 
-    /// Load conjugate to the load factor of the last evaluation: reactions times the prescribed
-    /// pattern, plus the reference force times its displacement rate (none if the factor drives forces).
+    /// Load conjugate to the load factor of the last evaluation (N, for a load factor in mm): reactions times
+    /// the prescribed pattern; 0 where the factor drives forces only.
     pub fn load(&self) -> f64 {
         let prescribed = self.conditions.prescribed().iter();
         prescribed

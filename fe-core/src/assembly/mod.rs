@@ -47,7 +47,8 @@ pub struct Assembled {
     pub internal: Vec<f64>,
     /// Stiffness (N/mm) of the free equations.
     pub matrix: MatrixValues,
-    /// K_fc p: force on the free equations per unit rate of the prescribed pattern.
+    /// K_fc p: force (N) on the free equations per unit of the load factor, which moves the prescribed
+    /// pattern p.
     pub coupling: Vec<f64>,
 }
 
@@ -104,7 +105,7 @@ impl Assembler {
         &self.free
     }
 
-    /// Rate of the prescribed pattern on every DOF, zero on free ones.
+    /// Rate of the prescribed pattern on every DOF (mm per unit of the load factor), zero on free ones.
     pub fn rate(&self) -> &[f64] {
         &self.rate
     }
