@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use fe_core::element::{Element, ElementError};
 use fe_core::grid::GridBuilder;
-use fe_core::kinematics::Solid;
+use fe_core::kinematics::{PlaneStress, Solid};
 use fe_core::material::Material;
 use fe_core::mesh::{Block, CellKind, Mesh, MeshError, NodeId};
 use fe_core::shape::{hex20, quad8};
-use fe_elements::{BandWidth, Hex20, HexRule};
+use fe_elements::{BandWidth, Hex20, HexRule, Quad8, QuadRule};
 
 /// Name of the only block of [`boxes`].
 pub const BLOCK: &str = "block";
@@ -175,4 +175,25 @@ pub fn quadrilaterals(n: usize, map: impl Fn(f64, f64) -> [f64; 2]) -> Result<Me
     let mut mesh = Mesh::new(nodes)?;
     mesh.add_block(BLOCK, CellKind::Quad8, connectivity)?;
     Ok(mesh)
+}
+
+/// One plane-stress element in every quadrilateral of the mesh.
+///
+/// # Errors
+///
+/// [`ElementError`] for a distorted cell or an impossible thickness.
+pub fn sheets(
+    mesh: &Mesh,
+    thickness: f64,
+    rule: QuadRule,
+    law: &Arc<dyn Material<PlaneStress>>,
+) -> Result<Vec<Box<dyn Element>>, ElementError> {
+    let blocks = mesh.blocks().iter().filter(|b| b.kind == CellKind::Quad8);
+    let element = |cell: &[NodeId]| {
+        let nodes: [NodeId; 8] = std::array::from_fn(|a| cell[a]);
+        let coords = nodes.map(|n| [mesh.nodes()[n][0], mesh.nodes()[n][1]]);
+        let element = Quad8::new(nodes, &coords, thickness, rule, Arc::clone(law))?;
+        Ok(Box::new(element) as Box<dyn Element>)
+    };
+    blocks.flat_map(Block::cells).map(element).collect()
 }

@@ -4,15 +4,21 @@
 //! beside its rigid-body modes. In a mesh they survive in columns of one by one cells only: n + 1 of them in a free
 //! column of n cells, n when an end is clamped, none with a roller plane along a side.
 
+use std::sync::Arc;
+
 use fe_core::dof::Dof;
 use fe_core::grid::GridBuilder;
+use fe_core::kinematics::{PlaneStress, Solid};
+use fe_core::material::Material;
 use fe_core::model::{Conditions, Model};
-use fe_elements::HexRule;
+use fe_elements::{HexRule, QuadRule};
+use fe_materials::Elastic;
+use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 use fe_solver::error::SolverError;
 use fe_tests::conditions::hold;
 use fe_tests::dense::{DenseModel, energy};
 use fe_tests::laws::elastic;
-use fe_tests::mesh::{boxes, hexahedra, hexahedra_of, lines, nodes_where};
+use fe_tests::mesh::{boxes, hexahedra, hexahedra_of, lines, nodes_where, quadrilaterals, sheets};
 use fe_tests::solve::solve;
 
 fn block(cells: [usize; 3], size: [f64; 3], rule: HexRule) -> Model {
@@ -47,6 +53,18 @@ fn zeros(model: &Model, conditions: &Conditions) -> usize {
 fn one_hexahedron() {
     for (rule, expected) in [(HexRule::Full, 6), (HexRule::Reduced, 12)] {
         let model = cubes([1, 1, 1], rule);
+        assert_eq!(zeros(&model, &Conditions::new(&model)), expected);
+    }
+}
+
+/// EL-02: 3 zeros with 9 points, 4 with 4, in its plane.
+#[test]
+fn one_quadrilateral() {
+    for (rule, expected) in [(QuadRule::Full, 3), (QuadRule::Reduced, 4)] {
+        let law: Arc<dyn Material<PlaneStress>> = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
+        let mesh = quadrilaterals(1, |x, y| [50.0 * x, 50.0 * y]).unwrap();
+        let elements = sheets(&mesh, 1.0, rule, &law).unwrap();
+        let model = Model::new(mesh, elements);
         assert_eq!(zeros(&model, &Conditions::new(&model)), expected);
     }
 }
@@ -168,4 +186,24 @@ fn a_floating_beam_is_refused_by_node_and_dof() {
         hold(&model, &mut conditions, &[Dof::Ux], plane(0)).unwrap();
         solve(&model, conditions).unwrap();
     }
+}
+
+/// So is a block on a hinge whose law has an unsymmetric tangent, which another factorisation serves.
+#[test]
+fn a_hinged_block_of_an_unsymmetric_law_is_refused() {
+    let concrete = FixedCrackParameters::from_strength(38.0, 2.9, 33_000.0);
+    let law: Arc<dyn Material<Solid>> = Arc::new(FixedCrack::new(concrete, None).unwrap());
+    let line = lines(0.0, 500.0, 5);
+    let mesh = boxes(&line, &line, &line).unwrap();
+    let elements = hexahedra(&mesh, HexRule::Full, &law).unwrap();
+    let model = Model::new(mesh, elements);
+    let mut conditions = Conditions::new(&model);
+    let hinge = |x: [f64; 3]| x[0] == 0.0 && x[1] == 0.0;
+    hold(&model, &mut conditions, &[Dof::Uz], plane(2)).unwrap();
+    hold(&model, &mut conditions, &[Dof::Ux, Dof::Uy], hinge).unwrap();
+    let refused = solve(&model, conditions);
+    assert!(
+        matches!(refused, Err(SolverError::Singular { .. })),
+        "{refused:?}"
+    );
 }

@@ -6,25 +6,20 @@
 use std::sync::Arc;
 
 use fe_core::dof::Dof;
-use fe_core::element::Element;
+use fe_core::kinematics::PlaneStress;
+use fe_core::material::Material;
 use fe_core::model::{Conditions, Model};
-use fe_elements::{Quad8, QuadRule};
+use fe_elements::QuadRule;
 use fe_materials::Elastic;
 use fe_tests::conditions::hold;
-use fe_tests::mesh::{BLOCK, quadrilaterals};
+use fe_tests::mesh::{quadrilaterals, sheets};
 use fe_tests::solve::solve;
 
 /// Deflection of the middle of the right edge with n x n elements.
 fn deflection(n: usize, rule: QuadRule) -> f64 {
     let mesh = quadrilaterals(n, |s, t| [48.0 * s, 44.0 * s + t * (44.0 - 28.0 * s)]).unwrap();
-    let law = Arc::new(Elastic::new(1.0, 1.0 / 3.0).unwrap());
-    let elements = mesh.block(BLOCK).unwrap().cells().map(|cell| {
-        let nodes: [usize; 8] = cell.try_into().unwrap();
-        let coords = nodes.map(|k| [mesh.nodes()[k][0], mesh.nodes()[k][1]]);
-        let element = Quad8::new(nodes, &coords, 1.0, rule, law.clone()).unwrap();
-        Box::new(element) as Box<dyn Element>
-    });
-    let elements = elements.collect();
+    let law: Arc<dyn Material<PlaneStress>> = Arc::new(Elastic::new(1.0, 1.0 / 3.0).unwrap());
+    let elements = sheets(&mesh, 1.0, rule, &law).unwrap();
     let model = Model::new(mesh, elements);
     let mut conditions = Conditions::new(&model);
     hold(&model, &mut conditions, &[Dof::Ux, Dof::Uy], |x| {
