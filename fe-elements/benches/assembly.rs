@@ -1,6 +1,8 @@
 //! Time to assemble a beam of 60 x 4 x 1 hexahedra (2 x 2 x 2 points) on one thread, with a law whose
 //! tangent is a constant: what elements and assembly cost without the law.
 
+mod common;
+
 use std::hint::black_box;
 use std::sync::Arc;
 
@@ -9,50 +11,12 @@ use fe_core::assembly::{Assembled, Assembler};
 use fe_core::dof::Dof;
 use fe_core::element::{Element, EvaluationContext};
 use fe_core::grid::GridBuilder;
-use fe_core::kinematics::Solid;
-use fe_core::material::{Material, MaterialError, Operator, PointContext, Response, StateVar};
+use fe_core::material::Operator;
 use fe_core::model::{Conditions, Model};
 use fe_core::state::StateStore;
-use fe_core::voigt::isotropic;
 use fe_elements::{BandWidth, Hex20, HexRule};
-use nalgebra::{Matrix6, Vector6};
 
-/// sigma = D e, with as many state variables as a concrete law has.
-#[derive(Debug)]
-struct Linear {
-    tangent: Matrix6<f64>,
-    unsymmetric: bool,
-}
-
-const STATE: [StateVar; 1] = [StateVar::vector("history", "-", 18)];
-
-impl Material<Solid> for Linear {
-    fn name(&self) -> &'static str {
-        "linear"
-    }
-
-    fn state_vars(&self) -> &[StateVar] {
-        &STATE
-    }
-
-    fn update(
-        &self,
-        strain: &Vector6<f64>,
-        committed: &[f64],
-        trial: &mut [f64],
-        _ctx: &PointContext,
-    ) -> Result<Response<Solid>, MaterialError> {
-        trial.copy_from_slice(committed);
-        Ok(Response {
-            stress: self.tangent * strain,
-            tangent: self.tangent,
-        })
-    }
-
-    fn unsymmetric_tangent(&self) -> bool {
-        self.unsymmetric
-    }
-}
+use common::Linear;
 
 /// Lines of `n` equal cells of `length` mm.
 fn lines(n: u32, length: f64) -> Vec<f64> {
@@ -70,10 +34,7 @@ fn beam(unsymmetric: bool) -> Model {
         &lines(1, 75.0),
     );
     let mesh = grid.finish().expect("a valid mesh");
-    let law = Arc::new(Linear {
-        tangent: isotropic(30000.0, 0.2),
-        unsymmetric,
-    });
+    let law = Arc::new(Linear::new(unsymmetric));
     let elements = mesh.blocks()[0]
         .cells()
         .map(|cell| {

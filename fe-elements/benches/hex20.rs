@@ -1,67 +1,28 @@
 //! Time of one 20-node hexahedron with a law whose 6 x 6 tangent is a constant: what the element itself costs.
 
+mod common;
+
 use std::hint::black_box;
 use std::sync::Arc;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use fe_core::element::{Element, ElementSystem, EvaluationContext};
-use fe_core::kinematics::Solid;
-use fe_core::material::{Material, MaterialError, Operator, PointContext, Response, StateVar};
+use fe_core::material::Operator;
 use fe_core::shape::hex20::NODES;
-use fe_core::voigt::isotropic;
 use fe_elements::{BandWidth, Hex20, HexRule};
-use nalgebra::{Matrix6, Vector6};
 
-/// sigma = D e.
-#[derive(Debug)]
-struct Linear {
-    tangent: Matrix6<f64>,
-    unsymmetric: bool,
-}
-
-impl Material<Solid> for Linear {
-    fn name(&self) -> &'static str {
-        "linear"
-    }
-
-    fn state_vars(&self) -> &[StateVar] {
-        &[]
-    }
-
-    fn update(
-        &self,
-        strain: &Vector6<f64>,
-        _committed: &[f64],
-        _trial: &mut [f64],
-        _ctx: &PointContext,
-    ) -> Result<Response<Solid>, MaterialError> {
-        Ok(Response {
-            stress: self.tangent * strain,
-            tangent: self.tangent,
-        })
-    }
-
-    fn unsymmetric_tangent(&self) -> bool {
-        self.unsymmetric
-    }
-}
+use common::Linear;
 
 /// A distorted cell of 50 mm.
 fn element(rule: HexRule, unsymmetric: bool) -> Hex20 {
     let coords = NODES.map(|[x, y, z]| [25.0 * x + 2.0 * y * z, 25.0 * y + x, 25.0 * z - x * y]);
-    let mut tangent = isotropic(30000.0, 0.2);
-    if unsymmetric {
-        tangent[(0, 1)] += 500.0;
-    }
-    let law = Arc::new(Linear {
-        tangent,
-        unsymmetric,
-    });
+    let law = Arc::new(Linear::new(unsymmetric));
     let nodes = std::array::from_fn(|i| i);
     Hex20::new(nodes, &coords, rule, law, BandWidth::CubeRoot).expect("a valid cell")
 }
 
 fn hex20(c: &mut Criterion) {
+    let (committed, mut trial) = ([0.0; 27 * 18], [0.0; 27 * 18]);
     let u: Vec<f64> = (0..60).map(|i| 1e-3 * f64::from(i).sin()).collect();
     let mut force = vec![0.0; 60];
     let mut stiffness = vec![0.0; 3600];
@@ -84,7 +45,7 @@ fn hex20(c: &mut Criterion) {
                             &mut stiffness
                         },
                     };
-                    element.evaluate(black_box(&u), &[], &mut [], &ctx, out)
+                    element.evaluate(black_box(&u), &committed, &mut trial, &ctx, out)
                 });
             });
         }

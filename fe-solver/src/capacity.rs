@@ -13,14 +13,27 @@ pub struct PathPoint {
     pub residual: f64,
     /// Accepted without meeting the criterion.
     pub flagged: bool,
-    /// Reached by a jump at a held load factor, where no static equilibrium lies near the step before.
-    pub jump: bool,
+    /// Reached by solves at a held load factor.
+    pub held: bool,
 }
 
 /// Fall from the running maximum after which the path before it holds the capacity.
 pub const CAPACITY_FALL: f64 = 0.20;
 /// Fall after a local maximum that makes it a drop.
 pub const DROP_FALL: f64 = 0.05;
+
+/// Fall within one step at a held load factor that makes it a jump.
+pub const JUMP_FALL: f64 = 0.01;
+
+/// Whether the step to point `i` of a path is a jump: it lost [`JUMP_FALL`] of the load while the load
+/// factor was held. No static equilibrium exists along it.
+pub fn is_jump(path: &[PathPoint], i: usize) -> bool {
+    let before = i.checked_sub(1).and_then(|i| path.get(i));
+    let (Some(before), Some(now)) = (before, path.get(i)) else {
+        return false;
+    };
+    now.held && relative_fall(before.load, now.load) >= JUMP_FALL
+}
 
 /// What a path says about capacity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,9 +79,9 @@ impl Capacity {
             fell,
             first_drop,
             post_peak_drop: relative_fall(peak.load, lowest),
-            vertical_drop: after
-                .windows(2)
-                .any(|pair| pair[1].jump && pair[0].load - pair[1].load >= DROP_FALL * peak.load),
+            vertical_drop: after.windows(2).any(|pair| {
+                is_jump(pair, 1) && pair[0].load - pair[1].load >= DROP_FALL * peak.load
+            }),
         })
     }
 }
@@ -139,9 +152,10 @@ impl Verdict {
             points.map(|p| p.residual).fold(0.0, f64::max)
         };
         let flagged = before.iter().filter(|p| p.flagged).count();
-        let jumps = before.iter().filter(|p| p.jump).count();
+        let jumps = (0..steps).filter(|&i| is_jump(path, i)).count();
         let worst_flagged = worst(&mut before.iter().filter(|p| p.flagged));
-        let last = before.iter().rev().find(|p| !p.flagged && !p.jump);
+        let regular = |&i: &usize| !path[i].flagged && !is_jump(path, i);
+        let last = (0..steps).rev().find(regular).map(|i| path[i]);
         let gap = last.map(|p| p.work_conjugate_load - p.load);
         let relative = last.map_or(f64::NAN, |p| {
             ((p.work_conjugate_load - p.load) / p.load).abs()
@@ -206,7 +220,7 @@ mod tests {
             work_conjugate_load: load * 1.001,
             residual: 5e-4,
             flagged: false,
-            jump: false,
+            held: false,
         };
         loads.iter().enumerate().map(point).collect()
     }
@@ -234,10 +248,20 @@ mod tests {
     fn a_drop_is_vertical_where_a_jump_takes_a_twentieth_of_the_peak() {
         let mut p = path(&[0.0, 100.0, 98.0, 60.0]);
         assert!(!Capacity::of(&p).unwrap().vertical_drop);
-        p[2].jump = true;
+        p[2].held = true;
         assert!(!Capacity::of(&p).unwrap().vertical_drop);
-        p[3].jump = true;
+        p[3].held = true;
         assert!(Capacity::of(&p).unwrap().vertical_drop);
+    }
+
+    #[test]
+    fn a_step_held_without_losing_load_is_no_jump() {
+        let mut p = path(&[0.0, 100.0, 99.5, 110.0, 60.0]);
+        for point in &mut p {
+            point.held = true;
+        }
+        let jumps: Vec<bool> = (0..6).map(|i| is_jump(&p, i)).collect();
+        assert_eq!(jumps, [false, false, false, false, true, false]);
     }
 
     /// A path of 30 steps whose peak is the last but one.
@@ -260,7 +284,9 @@ mod tests {
         p[3].residual = 0.05;
         assert_eq!(trust(&p), Trust::Low);
         let mut many = peaked();
-        many[..3].iter_mut().for_each(|p| p.flagged = true);
+        for point in &mut many[..3] {
+            point.flagged = true;
+        }
         assert_eq!(trust(&many), Trust::Low);
         let mut gap = peaked();
         gap[28].work_conjugate_load = 2.1;
@@ -270,8 +296,11 @@ mod tests {
     #[test]
     fn a_jump_limits_trust_and_its_work_is_no_load_gap() {
         let mut p = peaked();
-        p[28].jump = true;
-        p[28].work_conjugate_load = -1400.0;
+        p[27].load = 0.9;
+        p[27].held = true;
+        p[27].work_conjugate_load = -1400.0;
+        assert_eq!(trust(&p), Trust::Limited);
+        p[28].flagged = true;
         let verdict = Verdict::of(&p, &Capacity::of(&p).unwrap());
         assert_eq!((verdict.trust, verdict.jumps), (Trust::Limited, 1));
         assert!(verdict.gap.is_some_and(|gap| (gap - 0.001).abs() < 1e-12));

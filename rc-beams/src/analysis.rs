@@ -257,7 +257,7 @@ impl Recorder for LoadRecorder<'_> {
             work_conjugate_load: reading.work_conjugate_load_kn,
             residual: view.residual,
             flagged: view.flagged,
-            jump: view.held > 0,
+            held: view.held > 0,
         });
         let (best, now) = (self.path[self.best], self.path[self.path.len() - 1]);
         if !self.fell && (self.path.len() == 1 || now.load > best.load) {

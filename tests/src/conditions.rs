@@ -27,7 +27,7 @@ pub fn hold(
     Ok(())
 }
 
-/// Adds nodal forces [N] per unit of the load factor.
+/// Adds nodal forces (N) per unit of the load factor.
 ///
 /// # Errors
 ///
@@ -45,7 +45,7 @@ pub fn push(
     Ok(())
 }
 
-/// Adds a traction [MPa], a function of the outward normal, per unit of the load factor to all faces of
+/// Adds a traction (MPa), a function of the outward normal, per unit of the load factor to all faces of
 /// hexahedra whose nodes satisfy `test`.
 ///
 /// # Errors

@@ -19,15 +19,15 @@ use crate::conditions::hold;
 use crate::mesh::{boxes, cells, nodes_where};
 use crate::solve::run;
 
-/// Edge of the cube, which is also the crack-band width [mm].
+/// Edge of the cube, which is also the crack-band width (mm).
 pub const EDGE: f64 = 10.0;
-/// Characteristic strength [MPa].
+/// Characteristic strength (MPa).
 pub const FCK: f64 = 30.0;
 
 /// Anything that can go wrong with a scene.
 pub type Failure = Box<dyn std::error::Error>;
 
-/// A law with its curves in closed form: stress magnitude [MPa] over strain magnitude.
+/// A law with its curves in closed form: stress magnitude (MPa) over strain magnitude.
 #[derive(Debug)]
 pub struct Case {
     /// Name of the law.
@@ -85,7 +85,7 @@ mod concrete {
 }
 
 impl Softening {
-    /// Stress [MPa] at a tensile strain.
+    /// Stress (MPa) at a tensile strain.
     pub fn stress(self, strain: f64) -> f64 {
         let (strength, young) = (concrete::strength(), concrete::young());
         let onset = strength / young;
@@ -102,7 +102,7 @@ impl Softening {
 }
 
 impl Crushing {
-    /// Stress magnitude [MPa] at a compressive strain.
+    /// Stress magnitude (MPa) at a compressive strain.
     pub fn stress(self, strain: f64) -> f64 {
         let eta = strain / concrete::PEAK;
         let k = concrete::young() * concrete::PEAK / concrete::FCM;
@@ -158,7 +158,7 @@ pub fn cases() -> Result<Vec<Case>, Failure> {
     ])
 }
 
-/// Mean stress [MPa] at equal steps of strain up to `end`, computed on the cube; the first point is at rest.
+/// Mean stress (MPa) at equal steps of strain up to `end`, computed on the cube; the first point is at rest.
 ///
 /// The cube has 27 points: with 8, its softening soon concentrates in half of the points, another path.
 ///

@@ -16,7 +16,7 @@ pub struct DenseModel {
     /// DOF of each free equation.
     pub free: Vec<usize>,
     dofs: usize,
-    /// Eigenvalues [N/mm] and orthonormal eigenvectors of the stiffness of the free equations.
+    /// Eigenvalues (N/mm) and orthonormal eigenvectors of the stiffness of the free equations.
     eigen: SymmetricEigen<f64, nalgebra::Dyn>,
 }
 
@@ -71,7 +71,7 @@ impl DenseModel {
         Some(self.extend(mode.iter().copied()))
     }
 
-    /// Displacement [mm] of all DOFs under the reference load, without any share of the modes without
+    /// Displacement (mm) of all DOFs under the reference load, without any share of the modes without
     /// energy.
     pub fn solve(&self, conditions: &Conditions) -> Vec<f64> {
         let all = conditions.reference();
@@ -94,7 +94,7 @@ impl DenseModel {
     }
 }
 
-/// Energy (1/2) u . f(u) [N mm] of a displacement [mm] of a linear model.
+/// Energy (1/2) u . f(u) (N mm) of a displacement (mm) of a linear model.
 ///
 /// # Errors
 ///

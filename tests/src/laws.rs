@@ -19,7 +19,7 @@ pub fn elastic(young_mpa: f64, poisson: f64) -> Result<Arc<dyn Material<Solid>>,
 /// A tendon without stiffness: the same stress at every strain.
 #[derive(Debug, Clone, Copy)]
 pub struct Tendon {
-    /// Stress [MPa].
+    /// Stress (MPa).
     pub stress_mpa: f64,
 }
 
@@ -52,9 +52,9 @@ impl Material<Axial> for Tendon {
 pub struct Uniaxial {
     /// Stress along x.
     pub curve: Curve,
-    /// Young's modulus across [MPa].
+    /// Young's modulus across (MPa).
     pub young_mpa: f64,
-    /// Shear modulus [MPa].
+    /// Shear modulus (MPa).
     pub shear_mpa: f64,
 }
 
@@ -63,20 +63,20 @@ pub struct Uniaxial {
 pub enum Curve {
     /// E e until the strength is exceeded for the first time, then nothing for good.
     Brittle {
-        /// Tensile strength [MPa].
+        /// Tensile strength (MPa).
         strength_mpa: f64,
     },
     /// fc (1 - (1 - |e|/e1)^2) in compression up to e1, then fc; nothing in tension.
     ParabolaRectangle {
-        /// Compressive strength fc [MPa].
+        /// Compressive strength fc (MPa).
         strength_mpa: f64,
-        /// Strain e1, positive [-].
+        /// Strain e1, positive (-).
         peak_strain: f64,
     },
 }
 
 impl Curve {
-    /// Stress [MPa], slope [MPa] and whether the material is cracked now.
+    /// Stress (MPa), slope (MPa) and whether the material is cracked now.
     fn at(self, strain: f64, young: f64, cracked: bool) -> (f64, f64, bool) {
         match self {
             Self::Brittle { strength_mpa } => {

@@ -10,14 +10,14 @@ use nalgebra::{Vector3, Vector6};
 pub struct ElasticCell<'a> {
     /// Law without internal variables.
     pub law: &'a dyn Material<Solid>,
-    /// Places of the nodes [mm].
+    /// Places of the nodes (mm).
     pub coords: [[f64; 3]; 20],
-    /// Displacements of the nodes [mm], node-major.
+    /// Displacements of the nodes (mm), node-major.
     pub u: Vec<f64>,
 }
 
 impl ElasticCell<'_> {
-    /// Stress [MPa, Voigt] of the strain at the natural point `xi`.
+    /// Stress (MPa, Voigt) of the strain at the natural point `xi`.
     ///
     /// # Errors
     ///
@@ -40,7 +40,7 @@ impl ElasticCell<'_> {
         Ok(self.law.update(&strain, &[], &mut [], &point)?.stress)
     }
 
-    /// Stress [MPa, Voigt] at `xi` extrapolated from the 2 x 2 x 2 Gauss points, where it is most accurate
+    /// Stress (MPa, Voigt) at `xi` extrapolated from the 2 x 2 x 2 Gauss points, where it is most accurate
     /// (Barlow 1976).
     ///
     /// # Errors

@@ -15,7 +15,7 @@ use fe_tests::mesh::{boxes, cells, hexahedra, lines, mapped};
 use fe_tests::solve::solve;
 use fe_tests::stress::ElasticCell;
 
-/// Upper end of the inner edge in the plane y = 0 [mm].
+/// Upper end of the inner edge in the plane y = 0 (mm).
 const D: [f64; 3] = [2000.0, 0.0, 300.0];
 
 /// Stress yy at D, of the strain there and extrapolated; cells along the ellipse, across, and through the thickness.

@@ -11,7 +11,7 @@ use fe_tests::laws::elastic;
 use fe_tests::mesh::{boxes, cells, hexahedra, lines, mapped};
 use fe_tests::solve::solve;
 
-/// Weight per volume [N/mm3].
+/// Weight per volume (N/mm3).
 const DENSITY: f64 = 24.9e-6;
 
 /// Protects consistent body forces, also in distorted cells: inner nodes of the block are moved, which leaves its volume

@@ -28,7 +28,7 @@ const STRENGTH: f64 = 2.2;
 /// Strain of the first crack, 7.333e-5.
 const CRACKING: f64 = STRENGTH / CONCRETE;
 
-/// A tie of `n` cells along x, the one in the middle of strength `weak` [MPa].
+/// A tie of `n` cells along x, the one in the middle of strength `weak` (MPa).
 fn tie(n: usize, weak: f64) -> Model {
     let mesh = boxes(&lines(0.0, LENGTH, n), &[0.0, 100.0], &[0.0, NET / 100.0]).unwrap();
     let mut elements: Vec<Box<dyn Element>> = Vec::new();

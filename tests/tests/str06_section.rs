@@ -22,7 +22,7 @@ use fe_tests::mesh::{BLOCK, boxes, hexahedra, lines, nodes_where};
 const DEPTH: f64 = 400.0;
 const COVER: f64 = 40.0;
 const BARS: f64 = 3.0 * std::f64::consts::PI * 64.0;
-/// Length of the piece of beam [mm].
+/// Length of the piece of beam (mm).
 const PIECE: f64 = 100.0;
 
 /// A piece of the beam, cut into layers of cells; two Gauss points per layer and fibre.
@@ -53,7 +53,7 @@ impl Piece {
         }
     }
 
-    /// Normal force [N] and sagging moment [N mm] about the top, under the strain phi (c - depth below the top):
+    /// Normal force (N) and sagging moment (N mm) about the top, under the strain phi (c - depth below the top):
     /// u_x = x e(y), u_y = -phi x^2/2.
     fn resultants(&self, phi: f64, neutral: f64) -> (f64, f64) {
         let model = &self.model;
@@ -80,7 +80,7 @@ impl Piece {
         })
     }
 
-    /// Moment [kNm] and depth of the neutral axis [mm] at a curvature, without normal force.
+    /// Moment (kNm) and depth of the neutral axis (mm) at a curvature, without normal force.
     fn bend(&self, phi: f64) -> (f64, f64) {
         let (mut low, mut high) = (0.0, DEPTH);
         for _ in 0..60 {

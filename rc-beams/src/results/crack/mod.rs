@@ -239,7 +239,7 @@ mod tests {
         }
     }
 
-    /// At one pixel per mm and four units per pixel, a point stands for 100 mm and its stroke is 90 mm long.
+    /// At one pixel per mm, a point stands for 100 mm and its stroke is 90 mm long.
     #[test]
     fn a_stroke_runs_along_its_crack_and_shrinks_where_the_crack_turns_out_of_the_plane() {
         let stroke = |points: &[ConcretePoint]| {
@@ -249,12 +249,12 @@ mod tests {
                 .find(|line| !bare.contains(*line) && line.contains("polyline"));
             new.map(|line| line.split("points=\"").nth(1).unwrap().trim().to_owned())
         };
-        let (x, y) = (4 * (36 + 500), 4 * (106 + 200));
+        let (x, y) = (units(36.0 + 500.0), units(106.0 + 200.0));
         let vertical = stroke(&[crack(1e-4, [1.0, 0.0, 0.0])]).unwrap();
-        let ends = format!("{x},{} {x},{}", y + 180, y - 180);
+        let ends = format!("{x},{} {x},{}", y + units(45.0), y - units(45.0));
         assert!(vertical.starts_with(&ends), "{vertical} is not {ends}");
         let oblique = stroke(&[crack(1e-4, [0.6, 0.0, 0.8])]).unwrap();
-        let ends = format!("{x},{} {x},{}", y + 108, y - 108);
+        let ends = format!("{x},{} {x},{}", y + units(27.0), y - units(27.0));
         assert!(oblique.starts_with(&ends), "{oblique} is not {ends}");
         assert_eq!(stroke(&[crack(0.9e-4, [1.0, 0.0, 0.0])]), None);
     }

@@ -1,6 +1,6 @@
 //! What the lines of a load-deflection curve mean.
 
-use fe_solver::capacity::PathPoint;
+use fe_solver::capacity::{PathPoint, is_jump};
 use plotters::element::{Circle, PathElement, Rectangle, Text};
 use plotters::prelude::DrawingBackend;
 use plotters::style::{Color, WHITE};
@@ -15,7 +15,7 @@ pub(super) fn draw_legend<DB: DrawingBackend>(
     path: &[PathPoint],
 ) -> Drawn<DB> {
     let mut rows = vec![Row::Load, Row::WorkConjugate];
-    if path.iter().any(|p| p.jump) {
+    if (0..path.len()).any(|i| is_jump(path, i)) {
         rows.push(Row::Jump);
     }
     if path.iter().any(|p| p.flagged) {
@@ -48,7 +48,7 @@ enum Row {
 impl Row {
     const fn label(self) -> &'static str {
         match self {
-            Self::Load => "load P, a dot per step",
+            Self::Load => "load P",
             Self::WorkConjugate => "work-conjugate load P*",
             Self::Jump => "jump, no static equilibrium",
             Self::Flagged => "step that misses the criterion",
@@ -70,10 +70,7 @@ impl Row {
                 .try_for_each(|dash| area.draw(&dash))
         };
         match self {
-            Self::Load => {
-                area.draw(&PathElement::new(ends.to_vec(), line(BLUE, 2.0)))?;
-                area.draw(&Circle::new(middle, units(1.8), BLUE.filled()))
-            }
+            Self::Load => area.draw(&PathElement::new(ends.to_vec(), line(BLUE, 2.0))),
             Self::WorkConjugate => dashes(4.0, line(VERMILLION, 1.0)),
             Self::Jump => dashes(3.0, line(BLUE, 2.0)),
             Self::Flagged => area.draw(&Circle::new(middle, units(4.0), line(ORANGE, 1.5))),

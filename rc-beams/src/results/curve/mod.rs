@@ -2,7 +2,9 @@
 
 mod legend;
 
-use fe_solver::capacity::{Capacity, PathPoint, Verdict};
+use std::mem::take;
+
+use fe_solver::capacity::{Capacity, PathPoint, Verdict, is_jump};
 use plotters::chart::{ChartBuilder, ChartContext, LabelAreaPosition};
 use plotters::coord::types::RangedCoordf64;
 use plotters::element::{Circle, EmptyElement, PathElement, Text, TriangleMarker};
@@ -100,33 +102,28 @@ impl Curve<'_> {
         Ok(())
     }
 
-    /// P, broken by dashes where it jumps, with a dot per step; P* where it is regular and in range.
+    /// P from the unloaded beam on, broken by dashes where it jumps; P* where it is regular and in range.
     fn draw_path<DB: DrawingBackend>(&self, chart: &mut Chart<'_, DB>) -> Drawn<DB> {
         let at = |p: &PathPoint| (p.deflection, p.load);
         let solid = line(BLUE, 2.0);
-        for piece in self.path.chunk_by(|_, next| !next.jump) {
-            chart.draw_series([PathElement::new(
-                piece.iter().map(at).collect::<Vec<_>>(),
-                solid,
-            )])?;
-        }
-        for pair in self.path.windows(2).filter(|pair| pair[1].jump) {
-            let ends = [at(&pair[0]), at(&pair[1])];
-            chart.draw_series(DashedLineSeries::new(ends, units(3.0), units(3.0), solid))?;
-        }
-        let dots = self.path.iter();
-        chart.draw_series(dots.map(|p| Circle::new(at(p), units(1.8), BLUE.filled())))?;
         let top = self.extent().1;
-        let shown = |p: &PathPoint| !p.jump && (0.0..=top).contains(&p.work_conjugate_load);
-        for piece in self.path.chunk_by(|a, b| shown(a) && shown(b)) {
-            let points: Vec<_> = piece
-                .iter()
-                .filter(|p| shown(p))
-                .map(|p| (p.deflection, p.work_conjugate_load))
-                .collect();
-            let style = line(VERMILLION, 1.0);
-            chart.draw_series(DashedLineSeries::new(points, units(4.0), units(4.0), style))?;
+        let (mut load, mut work) = (vec![(0.0, 0.0)], Vec::new());
+        for (i, point) in self.path.iter().enumerate() {
+            let jump = is_jump(self.path, i);
+            if jump {
+                let ends = [at(&self.path[i - 1]), at(point)];
+                chart.draw_series(DashedLineSeries::new(ends, units(3.0), units(3.0), solid))?;
+                chart.draw_series([PathElement::new(take(&mut load), solid)])?;
+            }
+            load.push(at(point));
+            if jump || !(0.0..=top).contains(&point.work_conjugate_load) {
+                draw_work(chart, take(&mut work))?;
+            } else {
+                work.push((point.deflection, point.work_conjugate_load));
+            }
         }
+        chart.draw_series([PathElement::new(load, solid)])?;
+        draw_work(chart, work)?;
         let flagged = self.path.iter().filter(|p| p.flagged);
         chart.draw_series(flagged.map(|p| Circle::new(at(p), units(4.0), line(ORANGE, 1.5))))?;
         Ok(())
@@ -179,6 +176,13 @@ impl Curve<'_> {
     }
 }
 
+/// A regular stretch of P*.
+fn draw_work<DB: DrawingBackend>(chart: &mut Chart<'_, DB>, points: Vec<(f64, f64)>) -> Drawn<DB> {
+    let style = line(VERMILLION, 1.0);
+    chart.draw_series(DashedLineSeries::new(points, units(4.0), units(4.0), style))?;
+    Ok(())
+}
+
 /// A number at an axis, without zeros at its end.
 fn short(value: f64) -> String {
     ((value * 1e3).round() / 1e3).to_string()
@@ -197,7 +201,7 @@ mod tests {
             work_conjugate_load: load,
             residual: 5e-4,
             flagged: false,
-            jump: false,
+            held: false,
         };
         loads.iter().enumerate().map(point).collect()
     }
@@ -234,7 +238,7 @@ mod tests {
     #[test]
     fn an_unknown_test_draws_nothing_and_marks_are_explained() {
         let mut path = path(&[0.0, 100.0, 50.0]);
-        path[2].jump = true;
+        path[2].held = true;
         path[2].flagged = true;
         path[2].work_conjugate_load = -1400.0;
         let svg = svg(&path, None);

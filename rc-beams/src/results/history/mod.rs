@@ -33,7 +33,7 @@ pub struct StepRow {
     pub iterations: usize,
     /// Attempts.
     pub attempts: usize,
-    /// Solves at a held load factor; more than 0 means a jump.
+    /// Solves at a held load factor.
     pub held: usize,
     /// Accepted without meeting the criterion.
     pub flagged: bool,
@@ -54,7 +54,7 @@ impl StepRow {
             work_conjugate_load: self.p_star_kn.unwrap_or(self.load_kn),
             residual: self.residual,
             flagged: self.flagged,
-            jump: self.held > 0,
+            held: self.held > 0,
         }
     }
 
@@ -270,13 +270,13 @@ mod tests {
     }
 
     #[test]
-    fn a_held_step_is_a_jump_of_the_path() {
+    fn a_step_becomes_a_point_of_the_path() {
         let held = StepRow {
             held: 2,
             ..row(4, 100.0)
         };
         let point = held.point();
-        assert!(point.jump && !point.flagged);
+        assert!(point.held && !point.flagged);
         assert_eq!(point.work_conjugate_load, 100.0);
     }
 }

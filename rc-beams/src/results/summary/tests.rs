@@ -48,7 +48,7 @@ fn summary(loads: &[f64]) -> Summary {
         work_conjugate_load: load,
         residual: if i == 0 { f64::INFINITY } else { 1e-3 },
         flagged: false,
-        jump: false,
+        held: false,
     };
     let path: Vec<_> = loads.iter().enumerate().map(point).collect();
     let capacity = Capacity::of(&path).unwrap();
