@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
-use fe_core::kinematics::{Kinematics, Solid};
+use fe_core::kinematics::Solid;
 use fe_core::material::{Material, Operator, PointContext};
 use fe_core::mesh::{CellKind, NodeId};
 use fe_core::shape::{hex20, quadrature};
@@ -38,7 +38,7 @@ pub enum BandWidth {
     CubeRoot,
     /// factor sqrt(V/extent along the normal): sqrt(hx hy) of a box for normal z and factor 1.
     InPlane {
-        /// Unit normal of the plane of the cracks' traces.
+        /// Normal of the plane of the cracks' traces, of any length.
         normal: [f64; 3],
         /// Factor on the side of the equivalent square.
         factor: f64,
@@ -52,7 +52,7 @@ impl BandWidth {
         match self {
             Self::CubeRoot => (volume / points as f64).cbrt(),
             Self::InPlane { normal, factor } => {
-                let n = Vector3::from(normal);
+                let n = Vector3::from(normal).normalize();
                 let along = coords.map(|x| n.dot(&Vector3::from(x)));
                 let extent = along.iter().fold(f64::MIN, |a, &b| a.max(b))
                     - along.iter().fold(f64::MAX, |a, &b| a.min(b));
@@ -78,8 +78,8 @@ impl Hex20 {
     ///
     /// # Errors
     ///
-    /// [`ElementError::Jacobian`] for an inverted or too distorted cell, [`ElementError::Material`]
-    /// when the law refuses the crack-band width.
+    /// [`ElementError::Jacobian`] for an inverted or too distorted cell, [`ElementError::Input`] for a
+    /// crack-band width that is not positive, [`ElementError::Material`] when the law refuses it.
     pub fn new(
         nodes: [NodeId; 20],
         coords: &[[f64; 3]; 20],
@@ -108,6 +108,14 @@ impl Hex20 {
         }
         let volume: f64 = points.iter().map(|p| p.1).sum();
         let band_width = band.of(coords, volume, points.len());
+        if !(band_width.is_finite() && band_width > 0.0) {
+            return Err(ElementError::Input {
+                what: "crack-band width (mm)".into(),
+                value: band_width,
+                allowed: "(0, inf)".into(),
+                remedy: "give a positive width, or a normal that is not zero".into(),
+            });
+        }
         law.admit(&PointContext::new(band_width))
             .map_err(|source| ElementError::Material { point: 0, source })?;
         Ok(Self {
@@ -127,14 +135,6 @@ impl Hex20 {
     /// Crack-band width h (mm).
     pub const fn band_width(&self) -> f64 {
         self.band_width
-    }
-
-    const fn context(&self, ctx: &EvaluationContext) -> PointContext {
-        PointContext {
-            band_width: self.band_width,
-            operator: ctx.operator,
-            relaxation: ctx.relaxation,
-        }
     }
 }
 
@@ -164,7 +164,7 @@ impl Element for Hex20 {
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
         let n = self.law.state_len();
-        let point_ctx = self.context(ctx);
+        let point_ctx = points::context(self.band_width, ctx);
         let u = kernel::by_direction(u);
         let mut force = [[0.0; PAD]; 3];
         let mut tangents = [Matrix6::zeros(); MAX_POINTS];
@@ -212,20 +212,9 @@ impl Element for Hex20 {
     }
 
     fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
-        let n = self.law.state_len();
         let u = kernel::by_direction(u);
-        let ctx = self.context(&EvaluationContext::frozen());
-        self.points
-            .iter()
-            .enumerate()
-            .try_fold(0.0, |sum, (p, (g, w))| {
-                let strain = kernel::strain(g, &u);
-                Some(
-                    sum + w * self
-                        .law
-                        .free_energy(&strain, &state[p * n..(p + 1) * n], &ctx)?,
-                )
-            })
+        let points = self.points.iter().map(|(g, w)| (*w, kernel::strain(g, &u)));
+        points::free_energy(self.law.as_ref(), self.band_width, state, points)
     }
 
     fn sample(
@@ -234,27 +223,9 @@ impl Element for Hex20 {
         state: &[f64],
         visit: &mut dyn FnMut(PointSample<'_>),
     ) -> Result<(), ElementError> {
-        let n = self.law.state_len();
         let u = kernel::by_direction(u);
-        let ctx = self.context(&EvaluationContext::frozen());
-        let mut scratch = vec![0.0; n];
-        for (p, (g, w)) in self.points.iter().enumerate() {
-            let own = &state[p * n..(p + 1) * n];
-            let strain = kernel::strain(g, &u);
-            let response = self
-                .law
-                .update(&strain, own, &mut scratch, &ctx)
-                .map_err(|source| ElementError::Material { point: p, source })?;
-            visit(PointSample {
-                position: self.positions[p],
-                volume: *w,
-                strain: Solid::components(&strain),
-                stress: Solid::components(&response.stress),
-                report: self.law.report(&strain, own),
-                state_vars: self.law.state_vars(),
-                state: own,
-            });
-        }
-        Ok(())
+        let places = self.points.iter().zip(&self.positions);
+        let points = places.map(|((g, w), x)| (*x, *w, kernel::strain(g, &u)));
+        points::sample(self.law.as_ref(), self.band_width, state, points, visit)
     }
 }

@@ -1,7 +1,18 @@
-//! History of the integration points of an element: slices of equal length, one after the other.
+//! What every element does with its integration points. Their histories are slices of equal length, one after
+//! the other.
 
+use fe_core::element::{ElementError, EvaluationContext, PointSample};
 use fe_core::kinematics::Kinematics;
-use fe_core::material::Material;
+use fe_core::material::{Material, PointContext};
+
+/// Context of a point of the given crack-band width (mm) within an evaluation.
+pub(crate) const fn context(band_width: f64, ctx: &EvaluationContext) -> PointContext {
+    PointContext {
+        band_width,
+        operator: ctx.operator,
+        relaxation: ctx.relaxation,
+    }
+}
 
 /// Writes the virgin state of every point.
 pub(crate) fn init_state<K: Kinematics>(law: &dyn Material<K>, state: &mut [f64]) {
@@ -21,4 +32,50 @@ pub(crate) fn latch<K: Kinematics>(law: &dyn Material<K>, trial: &[f64], base: &
             law.latch(t, b);
         }
     }
+}
+
+/// Sum over the points, given as volume (mm3) and strain, of the free energy (N mm).
+pub(crate) fn free_energy<K: Kinematics>(
+    law: &dyn Material<K>,
+    band_width: f64,
+    state: &[f64],
+    mut points: impl Iterator<Item = (f64, K::Vector)>,
+) -> Option<f64> {
+    let n = law.state_len();
+    let ctx = context(band_width, &EvaluationContext::frozen());
+    let mut rest = state;
+    points.try_fold(0.0, |sum, (volume, strain)| {
+        let (own, tail) = rest.split_at(n);
+        rest = tail;
+        Some(sum + volume * law.free_energy(&strain, own, &ctx)?)
+    })
+}
+
+/// Shows every point, given as position (mm), volume (mm3) and strain, with the stress of a committed state.
+pub(crate) fn sample<K: Kinematics>(
+    law: &dyn Material<K>,
+    band_width: f64,
+    state: &[f64],
+    points: impl Iterator<Item = ([f64; 3], f64, K::Vector)>,
+    visit: &mut dyn FnMut(PointSample<'_>),
+) -> Result<(), ElementError> {
+    let n = law.state_len();
+    let ctx = context(band_width, &EvaluationContext::frozen());
+    let mut scratch = vec![0.0; n];
+    for (point, (position, volume, strain)) in points.enumerate() {
+        let own = &state[point * n..(point + 1) * n];
+        let response = law
+            .update(&strain, own, &mut scratch, &ctx)
+            .map_err(|source| ElementError::Material { point, source })?;
+        visit(PointSample {
+            position,
+            volume,
+            strain: K::components(&strain),
+            stress: K::components(&response.stress),
+            report: law.report(&strain, own),
+            state_vars: law.state_vars(),
+            state: own,
+        });
+    }
+    Ok(())
 }

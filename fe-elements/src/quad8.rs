@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use fe_core::dof::Dof;
-use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext};
+use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
 use fe_core::kinematics::PlaneStress;
 use fe_core::material::{Material, Operator, PointContext};
 use fe_core::mesh::{CellKind, NodeId};
@@ -21,12 +21,21 @@ pub enum QuadRule {
     Full,
 }
 
+/// One Gauss point.
+#[derive(Debug, Clone)]
+struct Point {
+    position: [f64; 3],
+    /// Gradients of the shape functions (1/mm).
+    gradients: [[f64; 2]; 8],
+    /// Volume the point stands for (mm3).
+    volume: f64,
+}
+
 /// Plane-stress element of constant thickness, K = sum t w B^T D B.
 #[derive(Debug)]
 pub struct Quad8 {
     nodes: [NodeId; 8],
-    /// Gradients (1/mm) and volume (mm3) of each point.
-    points: Vec<([[f64; 2]; 8], f64)>,
+    points: Vec<Point>,
     band_width: f64,
     law: Arc<dyn Material<PlaneStress>>,
 }
@@ -38,8 +47,8 @@ impl Quad8 {
     ///
     /// # Errors
     ///
-    /// [`ElementError::Jacobian`] or [`ElementError::Input`]; [`ElementError::Material`] when the law refuses
-    /// the crack-band width, the square root of the area.
+    /// [`ElementError::Jacobian`], [`ElementError::Input`], or [`ElementError::Material`] when the law refuses
+    /// the crack-band width, which is the square root of the area.
     pub fn new(
         nodes: [NodeId; 8],
         coords: &[[f64; 2]; 8],
@@ -58,7 +67,7 @@ impl Quad8 {
         let n = if rule == QuadRule::Reduced { 2 } else { 3 };
         let mut points = Vec::new();
         for (point, (xi, w)) in quadrature::square(n).into_iter().enumerate() {
-            let (_, slopes) = quad8::shape(xi);
+            let (values, slopes) = quad8::shape(xi);
             let jacobian =
                 Matrix2::from_fn(|r, c| (0..8).map(|a| slopes[a][r] * coords[a][c]).sum());
             let determinant: f64 = jacobian.determinant();
@@ -72,9 +81,14 @@ impl Quad8 {
                     inverse[(1, 0)] * s[0] + inverse[(1, 1)] * s[1],
                 ]
             });
-            points.push((gradients, thickness * determinant * w));
+            let at = |k: usize| (0..8).map(|a| values[a] * coords[a][k]).sum();
+            points.push(Point {
+                position: [at(0), at(1), 0.0],
+                gradients,
+                volume: thickness * determinant * w,
+            });
         }
-        let area: f64 = points.iter().map(|p| p.1 / thickness).sum();
+        let area: f64 = points.iter().map(|p| p.volume / thickness).sum();
         let band_width = area.sqrt();
         law.admit(&PointContext::new(band_width))
             .map_err(|source| ElementError::Material { point: 0, source })?;
@@ -85,10 +99,23 @@ impl Quad8 {
             law,
         })
     }
+}
 
+impl Point {
     /// Strain rows xx, yy, xy of node `a`.
-    fn b(g: &[[f64; 2]; 8], a: usize) -> [[f64; 2]; 3] {
-        [[g[a][0], 0.0], [0.0, g[a][1]], [g[a][1], g[a][0]]]
+    const fn b(&self, a: usize) -> [[f64; 2]; 3] {
+        let [x, y] = self.gradients[a];
+        [[x, 0.0], [0.0, y], [y, x]]
+    }
+
+    fn strain(&self, u: &[f64]) -> Vector3<f64> {
+        let mut strain = Vector3::zeros();
+        for a in 0..8 {
+            for (i, row) in self.b(a).iter().enumerate() {
+                strain[i] += row[0] * u[2 * a] + row[1] * u[2 * a + 1];
+            }
+        }
+        strain
     }
 }
 
@@ -118,40 +145,30 @@ impl Element for Quad8 {
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
         let n = self.law.state_len();
-        let point_ctx = PointContext {
-            band_width: self.band_width,
-            operator: ctx.operator,
-            relaxation: ctx.relaxation,
-        };
-        for (p, (g, w)) in self.points.iter().enumerate() {
-            let mut strain = Vector3::zeros();
-            for a in 0..8 {
-                for (i, row) in Self::b(g, a).iter().enumerate() {
-                    strain[i] += row[0] * u[2 * a] + row[1] * u[2 * a + 1];
-                }
-            }
+        let point_ctx = points::context(self.band_width, ctx);
+        for (p, point) in self.points.iter().enumerate() {
             let range = p * n..(p + 1) * n;
             let response = self
                 .law
                 .update(
-                    &strain,
+                    &point.strain(u),
                     &committed[range.clone()],
                     &mut trial[range],
                     &point_ctx,
                 )
                 .map_err(|source| ElementError::Material { point: p, source })?;
-            let d: Matrix3<f64> = response.tangent * *w;
+            let d: Matrix3<f64> = response.tangent * point.volume;
             for a in 0..8 {
-                let ba = Self::b(g, a);
+                let ba = point.b(a);
                 for k in 0..2 {
                     let column = Vector3::new(ba[0][k], ba[1][k], ba[2][k]);
-                    out.force[2 * a + k] += w * column.dot(&response.stress);
+                    out.force[2 * a + k] += point.volume * column.dot(&response.stress);
                     if ctx.operator == Operator::None {
                         continue;
                     }
                     let row = d.tr_mul(&column);
                     for c in 0..8 {
-                        let bc = Self::b(g, c);
+                        let bc = point.b(c);
                         for l in 0..2 {
                             out.stiffness[(2 * a + k) * 16 + 2 * c + l] +=
                                 row[0] * bc[0][l] + row[1] * bc[1][l] + row[2] * bc[2][l];
@@ -173,5 +190,23 @@ impl Element for Quad8 {
 
     fn latch(&self, trial: &[f64], base: &mut [f64]) {
         points::latch(self.law.as_ref(), trial, base);
+    }
+
+    fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
+        let points = self.points.iter().map(|p| (p.volume, p.strain(u)));
+        points::free_energy(self.law.as_ref(), self.band_width, state, points)
+    }
+
+    fn sample(
+        &self,
+        u: &[f64],
+        state: &[f64],
+        visit: &mut dyn FnMut(PointSample<'_>),
+    ) -> Result<(), ElementError> {
+        let points = self
+            .points
+            .iter()
+            .map(|p| (p.position, p.volume, p.strain(u)));
+        points::sample(self.law.as_ref(), self.band_width, state, points, visit)
     }
 }

@@ -5,9 +5,9 @@
 
 use std::sync::Arc;
 
-use fe_core::element::Element;
+use fe_core::element::{Element, ElementSystem, EvaluationContext, PointSample};
 use fe_core::kinematics::{Axial, Solid};
-use fe_core::material::Material;
+use fe_core::material::{Material, Operator};
 use fe_core::mesh::{CellKind, Mesh};
 use fe_core::shape::{hex20, quad8};
 use fe_core::testing::{ElementCheck, check_element};
@@ -95,5 +95,71 @@ fn quadrilaterals() {
         let element = Quad8::new(nodes, &plane, 10.0, rule, law.clone()).unwrap();
         let report = check_element(&element, &coords, &ElementCheck::new(0.05)).unwrap();
         assert_eq!(report.motions, 3);
+    }
+}
+
+/// Elastic elements: twice the free energy is the work of the nodal forces, and the sum over the sampled points of volume,
+/// stress and strain. Target: equal within rounding.
+#[test]
+fn energies_agree() {
+    let law = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
+    let coords = hexahedron();
+    let mut mesh = Mesh::new(coords.to_vec()).unwrap();
+    mesh.add_block("host", CellKind::Hex20, (0..20).collect())
+        .unwrap();
+    let nodes = std::array::from_fn(|a| a);
+    let plane = quad8::NODES.map(|[x, y]| [25.0 * x + 2.0 * x * y, 24.0 * y + x]);
+    let sheet = Quad8::new(
+        std::array::from_fn(|a| a),
+        &plane,
+        10.0,
+        QuadRule::Full,
+        law.clone(),
+    );
+    let solid = Hex20::new(
+        nodes,
+        &coords,
+        HexRule::Reduced,
+        law.clone(),
+        BandWidth::CubeRoot,
+    );
+    let bar = Bar {
+        name: "bar".into(),
+        polyline: vec![[-18.0, -15.0, -17.0], [3.0, 5.0, 1.0]],
+        area_mm2: 201.0,
+        law,
+        dowel: None,
+    };
+    let mut elements: Vec<Box<dyn Element>> =
+        vec![Box::new(solid.unwrap()), Box::new(sheet.unwrap())];
+    for element in embed(&[bar], &mesh, &["host"]).unwrap() {
+        elements.push(Box::new(element));
+    }
+    for element in &elements {
+        let n = element.nodes().len() * element.dofs().len();
+        let u: Vec<f64> = (0..n)
+            .map(|i| 0.01 * (1.3 * (i * i) as f64).sin())
+            .collect();
+        let mut force = vec![0.0; n];
+        let out = ElementSystem {
+            force: &mut force,
+            stiffness: &mut [],
+        };
+        let ctx = EvaluationContext::new(Operator::None);
+        element.evaluate(&u, &[], &mut [], &ctx, out).unwrap();
+        let work: f64 = force.iter().zip(&u).map(|(f, u)| f * u).sum();
+        let energy = element.free_energy(&u, &[]).unwrap();
+        let mut sampled = 0.0;
+        let mut visit = |p: PointSample<'_>| {
+            sampled += p.volume
+                * p.stress
+                    .iter()
+                    .zip(p.strain)
+                    .map(|(s, e)| s * e)
+                    .sum::<f64>();
+        };
+        element.sample(&u, &[], &mut visit).unwrap();
+        assert!((2.0 * energy / work - 1.0).abs() < 1e-12, "{element:?}");
+        assert!((sampled / work - 1.0).abs() < 1e-12, "{element:?}");
     }
 }

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
-use fe_core::kinematics::{Axial, Kinematics};
-use fe_core::material::{Material, Operator, PointContext};
+use fe_core::kinematics::Axial;
+use fe_core::material::{Material, Operator};
 use fe_core::mesh::NodeId;
 use fe_core::shape::quadrature;
 use nalgebra::{Vector1, Vector3};
@@ -112,14 +112,6 @@ impl EmbeddedBar {
             i += 1;
         })
     }
-
-    const fn context(ctx: &EvaluationContext) -> PointContext {
-        PointContext {
-            band_width: 0.0,
-            operator: ctx.operator,
-            relaxation: ctx.relaxation,
-        }
-    }
 }
 
 /// t . (grad u) t: entry (a, k) is (grad N_a . t) t_k.
@@ -148,6 +140,11 @@ fn shear_row(g: &[[f64; 3]; 20], t: Vector3<f64>, n: Vector3<f64>) -> Row {
 
 fn dot(row: &Row, u: &[f64]) -> f64 {
     row.iter().zip(u).map(|(a, b)| a * b).sum()
+}
+
+/// Axial strain of a point.
+fn strain(point: &BarPoint, u: &[f64]) -> Vector1<f64> {
+    Vector1::new(dot(&point.axial, u))
 }
 
 /// Adds c r r^T to the upper triangle of a 60 x 60 matrix.
@@ -188,9 +185,9 @@ impl Element for EmbeddedBar {
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
         let n = self.law.state_len();
-        let point_ctx = Self::context(ctx);
+        let point_ctx = points::context(0.0, ctx);
         for (p, point) in self.points.iter().enumerate() {
-            let strain = Vector1::new(dot(&point.axial, u));
+            let strain = strain(point, u);
             let range = p * n..(p + 1) * n;
             let response = self
                 .law
@@ -228,19 +225,16 @@ impl Element for EmbeddedBar {
     }
 
     fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
-        let n = self.law.state_len();
-        let ctx = Self::context(&EvaluationContext::frozen());
-        self.points
+        let bar = self
+            .points
             .iter()
-            .enumerate()
-            .try_fold(0.0, |sum, (p, point)| {
-                let strain = Vector1::new(dot(&point.axial, u));
-                let own = &state[p * n..(p + 1) * n];
-                let shear = point.shear.as_ref().map_or(0.0, |row| dot(row, u));
-                let density = self.area * self.law.free_energy(&strain, own, &ctx)?
-                    + 0.5 * self.dowel * shear * shear;
-                Some(sum + point.weight * density)
-            })
+            .map(|p| (self.area * p.weight, strain(p, u)));
+        let energy = points::free_energy(self.law.as_ref(), 0.0, state, bar)?;
+        let dowel = self.points.iter().filter_map(|p| {
+            let shear = dot(p.shear.as_ref()?, u);
+            Some(0.5 * self.dowel * p.weight * shear * shear)
+        });
+        Some(energy + dowel.sum::<f64>())
     }
 
     fn sample(
@@ -249,27 +243,9 @@ impl Element for EmbeddedBar {
         state: &[f64],
         visit: &mut dyn FnMut(PointSample<'_>),
     ) -> Result<(), ElementError> {
-        let n = self.law.state_len();
-        let ctx = Self::context(&EvaluationContext::frozen());
-        let mut scratch = vec![0.0; n];
-        for (p, point) in self.points.iter().enumerate() {
-            let own = &state[p * n..(p + 1) * n];
-            let strain = Vector1::new(dot(&point.axial, u));
-            let response = self
-                .law
-                .update(&strain, own, &mut scratch, &ctx)
-                .map_err(|source| ElementError::Material { point: p, source })?;
-            visit(PointSample {
-                position: point.position,
-                volume: self.area * point.weight,
-                strain: Axial::components(&strain),
-                stress: Axial::components(&response.stress),
-                report: self.law.report(&strain, own),
-                state_vars: self.law.state_vars(),
-                state: own,
-            });
-        }
-        Ok(())
+        let places = self.points.iter();
+        let points = places.map(|p| (p.position, self.area * p.weight, strain(p, u)));
+        points::sample(self.law.as_ref(), 0.0, state, points, visit)
     }
 
     fn segments(
