@@ -192,7 +192,7 @@ impl Verdict {
             (Trust::Limited, reason.to_owned())
         } else {
             let reason = format!(
-                "every step up to the peak meets the criterion; work-conjugate load within {:.1} %",
+                "every step up to the peak meets the criterion; work-conjugate load within {:.2} %",
                 100.0 * relative
             );
             (Trust::High, reason)

@@ -16,8 +16,8 @@ use super::palette::{GREY, INK};
 
 /// Drawing units per pixel of the finished picture: backends know whole units only, lines and letters
 /// need finer ones.
-const UNITS: u32 = 3;
-/// Units averaged into one dot of a PNG, in each direction: three dots on two pixels, for dense screens.
+const UNITS: u32 = 4;
+/// Units averaged into one dot of a PNG, in each direction: two dots per pixel, for dense screens.
 const UNITS_PER_DOT: u32 = 2;
 
 /// Embedded font, and what a viewer of an SVG without it may use.
@@ -221,20 +221,20 @@ mod tests {
     #[test]
     fn an_svg_has_its_own_size_fine_units_and_a_named_font() {
         let svg = Sample.to_svg().unwrap();
-        assert!(svg.starts_with("<svg width=\"20\" height=\"10\" viewBox=\"0 0 60 30\""));
+        assert!(svg.starts_with("<svg width=\"20\" height=\"10\" viewBox=\"0 0 80 40\""));
         assert!(svg.contains("DejaVu Sans") && svg.contains("a &lt; b"));
         assert!(svg.trim_end().ends_with("</svg>"));
     }
 
     #[test]
-    fn a_png_has_three_dots_on_two_pixels() {
+    fn a_png_has_two_dots_per_pixel() {
         let root = tempfile::tempdir().unwrap();
         let folder = Folder::create(root.path(), "beam").unwrap();
         Sample.save_png(&folder, "sample").unwrap();
         let png = std::fs::read(folder.path().join("sample.png")).unwrap();
         assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
         // Width and height stand at the start of the header chunk.
-        assert_eq!(png[16..24], [0, 0, 0, 30, 0, 0, 0, 15]);
+        assert_eq!(png[16..24], [0, 0, 0, 40, 0, 0, 0, 20]);
     }
 
     #[test]

@@ -41,7 +41,7 @@ pub struct BarReach {
     pub utilisation: f64,
 }
 
-/// A state of the beam.
+/// A state of the beam, as far as its failure is concerned.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Snapshot {
     /// Concrete, the same points in the same order in every snapshot of a beam.

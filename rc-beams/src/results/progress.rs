@@ -134,7 +134,8 @@ fn say(line: &str) {
 fn bar(name: &str) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(BAR_TICKS as u64), ProgressDrawTarget::stderr());
     // The template is fixed; should it be refused, the default style serves.
-    if let Ok(style) = ProgressStyle::with_template("{prefix:<8} {bar:20} {msg}  {elapsed}") {
+    if let Ok(style) = ProgressStyle::with_template("{prefix:<8} {bar:12} {elapsed:>4}  {wide_msg}")
+    {
         bar.set_style(style.progress_chars("█▌░"));
     }
     bar.set_prefix(name.to_owned());

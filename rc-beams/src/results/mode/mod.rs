@@ -7,7 +7,8 @@
 //!   diagonal if its normal is inclined by 25 to 70 degrees to the beam axis, vertical below that; steeper
 //!   normals belong to cracks along the bars, which accompany any mode and are not counted. The *diagonal
 //!   share* is that of the diagonal cracks in shear spans in the sum of these and of the vertical cracks
-//!   anywhere;
+//!   between the spans. Vertical cracks in a shear span count only if bars yield: along elastic bars they
+//!   open as the lower part of an inclined crack;
 //! - *yield*: a longitudinal bar reaches its yield stress by the peak;
 //! - *softened web*: share of the middle half of the height, in one shear span, whose concrete is past its
 //!   compressive strength at the peak;
@@ -115,6 +116,7 @@ struct Measures {
     diagonal_share: f64,
     diagonal_span: String,
     bar: Option<BarReach>,
+    yielded: bool,
     softened_web: f64,
     crushing_growth: f64,
 }
@@ -122,6 +124,9 @@ struct Measures {
 impl Measures {
     fn of(layout: &Layout, peak: &Snapshot, end: &Snapshot) -> Self {
         let spans = layout.shear_spans.len();
+        let bars = peak.bars.iter();
+        let bar = bars.max_by(|a, b| a.utilisation.total_cmp(&b.utilisation));
+        let yielded = bar.is_some_and(|bar| bar.utilisation >= 1.0);
         let mut diagonal = vec![0.0; spans];
         let mut vertical = 0.0;
         let mut web = vec![[0.0; 2]; spans];
@@ -132,7 +137,9 @@ impl Measures {
             let angle = inclination_deg(after);
             match span {
                 Some(i) if DIAGONAL_DEG.contains(&angle) => diagonal[i] += growth,
-                _ if angle < *DIAGONAL_DEG.start() => vertical += growth,
+                _ if angle < *DIAGONAL_DEG.start() && (span.is_none() || yielded) => {
+                    vertical += growth;
+                }
                 _ => {}
             }
             let height = before.position[1] / layout.height_mm;
@@ -149,23 +156,20 @@ impl Measures {
         }
         let total: f64 = diagonal.iter().sum();
         let worst = (0..spans).max_by(|&a, &b| diagonal[a].total_cmp(&diagonal[b]));
-        let bars = peak.bars.iter();
         Self {
             diagonal_share: share(total, total + vertical),
             diagonal_span: worst.map_or_else(String::new, |i| layout.shear_spans[i].name.clone()),
-            bar: bars
-                .max_by(|a, b| a.utilisation.total_cmp(&b.utilisation))
-                .cloned(),
+            yielded,
+            bar: bar.cloned(),
             softened_web: web.iter().map(|w| share(w[0], w[1])).fold(0.0, f64::max),
             crushing_growth: share(crushing, volume),
         }
     }
 
     fn mode(&self) -> FailureMode {
-        let yielded = self.bar.as_ref().is_some_and(|bar| bar.utilisation >= 1.0);
         let softened = self.softened_web >= SOFTENED_WEB;
         let minor = self.diagonal_share <= DIAGONAL_MINOR;
-        match (yielded, softened) {
+        match (self.yielded, softened) {
             (true, false) if minor => FailureMode::Flexure,
             (false, true) => FailureMode::WebCrushing,
             (false, false) if self.diagonal_share >= DIAGONAL_GOVERNS => {

@@ -93,6 +93,17 @@ fn inclined_cracks_between_the_loads_are_no_shear() {
 }
 
 #[test]
+fn vertical_cracks_in_a_shear_span_are_flexure_only_where_bars_yield() {
+    let (mut before, mut end) = (peak(), peak());
+    open(&mut end, 24, 45.0);
+    open(&mut end, 23, 10.0);
+    open(&mut end, 22, 10.0);
+    assert_eq!(mode(&before, &end), FailureMode::DiagonalTension);
+    before.bars[1].utilisation = 1.1;
+    assert_eq!(mode(&before, &end), FailureMode::Flexure);
+}
+
+#[test]
 fn yield_with_vertical_cracks_is_flexure() {
     let (mut before, mut end) = (peak(), peak());
     before.bars[1].utilisation = 1.0;
