@@ -129,6 +129,8 @@ pub struct MeshSize {
 
 /// Largest number of elements in one direction.
 const MAX_ELEMENTS: usize = 1000;
+/// Largest number of elements in all: the factor of such a mesh takes a few GB.
+const MAX_TOTAL: usize = 20_000;
 
 impl FromStr for MeshSize {
     type Err = String;
@@ -154,6 +156,12 @@ impl FromStr for MeshSize {
                     "{count} elements {axis} the beam; allowed: 1 to {MAX_ELEMENTS}, for instance 60x4x1"
                 ));
             }
+        }
+        let total = nx * ny * nz;
+        if total > MAX_TOTAL {
+            return Err(format!(
+                "{total} elements; allowed: up to {MAX_TOTAL} in all, for instance 60x4x1"
+            ));
         }
         Ok(Self { nx, ny, nz })
     }

@@ -244,6 +244,24 @@ const CASES: &[Case] = &[
             "allowed: 1470 to 3000 mm",
         ],
     ),
+    (
+        "x_mm: 1370",
+        "x_mm: 680",
+        "680",
+        &[
+            "loads[0].x_mm: centre of the load at 680 mm, above the support at 610 mm",
+            "allowed: 100 mm or more away from it",
+        ],
+    ),
+    (
+        "stub: None,\n            source: \"Soares (2022), chapters 5 and 6\",\n        ),\n    ]",
+        "stub: (length_mm: 200, depth_mm: 150, source: \"\"), source: \"\",\n        ),\n    ]",
+        "200",
+        &[
+            "supports[1].stub.length_mm: stub of 200 mm",
+            "allowed: 100 mm, the length of its plate",
+        ],
+    ),
     // Measuring points.
     (
         "load: TotalReactions",
@@ -362,6 +380,11 @@ const COMMANDS: &[Arguments] = &[
         &["run", "A-SO3-1", "--mesh", "0x4x1"],
         2,
         &["--mesh", "0 elements along", "1 to 1000"],
+    ),
+    (
+        &["run", "A-SO3-1", "--mesh", "1000x1000x1000"],
+        2,
+        &["--mesh", "1000000000 elements", "up to 20000 in all"],
     ),
     (
         &["run", "A-SO3-1", "--mesh", "60x4"],

@@ -46,27 +46,27 @@ const KEEP_FACTOR: f64 = 3.0;
 #[non_exhaustive]
 pub enum RunError {
     /// A model cannot be built.
-    #[error("{specimen}: {source}")]
+    #[error("{specimen}: {reason}")]
     Build {
         /// Specimen.
         specimen: String,
         /// Why.
-        source: Box<BuildError>,
+        reason: Box<BuildError>,
     },
     /// Results cannot be written.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Output(#[from] ResultsError),
     /// The threads cannot be started.
-    #[error("cannot start the threads: {0}")]
+    #[error("cannot start the threads")]
     Threads(#[from] rayon::ThreadPoolBuildError),
     /// A beam cannot carry its own weight, or its model is singular.
-    #[error("{specimen}: {source}")]
+    #[error("{specimen}: {reason}")]
     Solver {
         /// Specimen.
         specimen: String,
         /// Why.
-        source: Box<SolverError>,
+        reason: Box<SolverError>,
     },
     /// A state cannot be read.
     #[error(transparent)]
@@ -114,9 +114,9 @@ pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, Run
 }
 
 fn build(specimen: &Specimen, settings: &ModelSettings) -> Result<Beam, RunError> {
-    Beam::new(specimen, settings).map_err(|source| RunError::Build {
+    Beam::new(specimen, settings).map_err(|error| RunError::Build {
         specimen: specimen.name.clone(),
-        source: Box::new(source),
+        reason: Box::new(error),
     })
 }
 
@@ -182,10 +182,10 @@ fn run(
     let outcome = match analyse(&beam, &stepping, driver.as_mut(), &mut recording) {
         Ok(outcome) => outcome,
         Err(_) if interrupt.is_set() => return Ok(Exit::Interrupted),
-        Err(source) => {
+        Err(error) => {
             return Err(RunError::Solver {
                 specimen: specimen.name.clone(),
-                source: Box::new(source),
+                reason: Box::new(error),
             });
         }
     };

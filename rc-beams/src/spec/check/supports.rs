@@ -5,7 +5,7 @@ use crate::spec::specimen::{Held, LoadMeasure};
 
 const ALONG: &str = "x is measured from the left end of the beam";
 
-/// A plate or stub that touches the beam.
+/// A plate on or under the beam.
 struct Contact {
     path: String,
     centre: f64,
@@ -18,11 +18,7 @@ impl Checks<'_> {
         let below = specimen.supports.iter().enumerate().map(|(i, s)| Contact {
             path: format!("supports[{i}].x_mm"),
             centre: s.x_mm.get(),
-            length: s
-                .stub
-                .as_ref()
-                .map_or(s.plate.length_mm, |stub| stub.length_mm)
-                .get(),
+            length: s.plate.length_mm.get(),
         });
         self.contacts("support", below.collect());
         let above = specimen.loads.iter().enumerate().map(|(i, load)| Contact {
@@ -31,6 +27,7 @@ impl Checks<'_> {
             length: load.plate.length_mm.get(),
         });
         self.contacts("load", above.collect());
+        self.apart();
         self.held();
         self.stubs();
         self.measuring();
@@ -60,6 +57,27 @@ impl Checks<'_> {
         }
     }
 
+    /// No load stands above a support: the mesh has element faces at the edges of all plates.
+    fn apart(&mut self) {
+        let specimen = self.specimen;
+        for (i, load) in specimen.loads.iter().enumerate() {
+            for support in &specimen.supports {
+                let (x, below) = (load.x_mm.get(), support.x_mm.get());
+                let least = 0.5 * (load.plate.length_mm.get() + support.plate.length_mm.get());
+                if (x - below).abs() < least - TOLERANCE {
+                    self.report(
+                        format!("loads[{i}].x_mm"),
+                        format!(
+                            "centre of the load at {x} mm, above the support at {below} mm; allowed: \
+                             {least} mm or more away from it"
+                        ),
+                        "move the load into the span, or shorten the plates",
+                    );
+                }
+            }
+        }
+    }
+
     fn held(&mut self) {
         let supports = &self.specimen.supports;
         let count = |held| supports.iter().filter(|s| s.held.contains(&held)).count();
@@ -85,15 +103,16 @@ impl Checks<'_> {
         }
     }
 
+    /// Stubs are as long as the plate below them: the mesh has element faces at its edges only.
     fn stubs(&mut self) {
         for (i, support) in self.specimen.supports.iter().enumerate() {
             let Some(stub) = &support.stub else { continue };
             let (plate, block) = (support.plate.length_mm.get(), stub.length_mm.get());
-            if plate > block + TOLERANCE {
+            if (plate - block).abs() > TOLERANCE {
                 self.report(
-                    format!("supports[{i}].plate.length_mm"),
-                    format!("plate of {plate} mm; allowed: up to {block} mm, the stub above it"),
-                    "shorten the plate or lengthen the stub",
+                    format!("supports[{i}].stub.length_mm"),
+                    format!("stub of {block} mm; allowed: {plate} mm, the length of its plate"),
+                    "give plate and stub the same length",
                 );
             }
         }
