@@ -15,6 +15,8 @@ pub struct PathPoint {
     pub flagged: bool,
     /// Reached by solves at a held load factor.
     pub held: bool,
+    /// Equilibrium, but not a stable one: the tangent has negative pivots.
+    pub unstable: bool,
 }
 
 /// Fall from the running maximum after which the path before it holds the capacity.
@@ -143,8 +145,8 @@ impl Verdict {
     /// 0.03, or P* differs from P by more than 3 % at the last step up to the peak that met the
     /// criterion. That step is no jump: across a jump P* is the work of forces no static state
     /// balances, not an error of the load. Limited trust when a step is flagged, when the path jumps
-    /// before the peak (beyond a jump other equilibrium branches may exist), or when the load is
-    /// largest at the end of the path.
+    /// or passes unstable equilibria before the peak (other equilibrium branches exist then, and which one
+    /// the path takes depends on the steps), or when the load is largest at the end of the path.
     pub fn of(path: &[PathPoint], capacity: &Capacity) -> Self {
         let before = path.get(..=capacity.peak).unwrap_or(path);
         let steps = before.len();
@@ -187,6 +189,14 @@ impl Verdict {
                 "{jumps} of {steps} steps up to the peak are jumps, beyond which other branches may exist"
             );
             (Trust::Limited, reason)
+        } else if let Some(first) = before.iter().find(|p| p.unstable) {
+            let count = before.iter().filter(|p| p.unstable).count();
+            let reason = format!(
+                "{count} of {steps} steps up to the peak are unstable equilibria, the first at {:.0} % of \
+                 the peak; other branches exist",
+                100.0 * first.load / before[steps - 1].load
+            );
+            (Trust::Limited, reason)
         } else if capacity.peak + 1 == path.len() {
             let reason = "the load is largest at the end of the path, a lower bound of the peak";
             (Trust::Limited, reason.to_owned())
@@ -221,6 +231,7 @@ mod tests {
             residual: 5e-4,
             flagged: false,
             held: false,
+            unstable: false,
         };
         loads.iter().enumerate().map(point).collect()
     }
@@ -288,6 +299,9 @@ mod tests {
             point.flagged = true;
         }
         assert_eq!(trust(&many), Trust::Low);
+        let mut unstable = peaked();
+        unstable[2].unstable = true;
+        assert_eq!(trust(&unstable), Trust::Limited);
         let mut gap = peaked();
         gap[28].work_conjugate_load = 2.1;
         assert_eq!(trust(&gap), Trust::Low);

@@ -210,6 +210,7 @@ impl StepControl {
             held,
         } = attempt;
         let increment = lambda - stage.lambda();
+        let negative_pivots = stage.stability(&displacement, lambda)?;
         let load = stage.load();
         let work_conjugate_load = stage.work_conjugate_load(&displacement, lambda);
         stage.commit(displacement, lambda);
@@ -224,7 +225,7 @@ impl StepControl {
             load,
             work_conjugate_load,
             flagged: !converged,
-            negative_pivots: stage.counters().negative_pivots,
+            negative_pivots,
             stage,
         };
         Ok(recorder.step(&view)?)

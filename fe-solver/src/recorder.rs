@@ -46,7 +46,7 @@ pub struct StepView<'a> {
     pub work_conjugate_load: f64,
     /// Whether the step was accepted without meeting the criterion.
     pub flagged: bool,
-    /// Negative pivots of the last factorisation.
+    /// Negative pivots of the symmetric part of the consistent tangent: 0 in a stable equilibrium.
     pub negative_pivots: usize,
 }
 

@@ -228,6 +228,32 @@ impl<'m> Stage<'m> {
         Ok(())
     }
 
+    /// Counts the negative pivots of the symmetric part (K + K^T)/2 of the consistent tangent at `u`: none in
+    /// an equilibrium that is stable under the constraints of the stage (positive second-order work, Hill
+    /// 1958). A tangent that is singular counts as one.
+    ///
+    /// The trial state is that of `u`; the factor replaces that of the driver.
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError`].
+    pub fn stability(&mut self, u: &[f64], lambda: f64) -> Result<usize, SolverError> {
+        self.residual(u, lambda, &EvaluationContext::new(Operator::Tangent))?;
+        let matrix = &mut self.assembled.matrix;
+        if !matrix.is_symmetric() {
+            for (l, u) in matrix.lower.iter_mut().zip(&matrix.upper) {
+                *l = 0.5 * (*l + u);
+            }
+            matrix.upper.clear();
+        }
+        match self.factorise() {
+            Ok(()) => {}
+            Err(SolverError::Singular { .. }) => self.counters.negative_pivots = 1,
+            Err(e) => return Err(e),
+        }
+        Ok(self.counters.negative_pivots)
+    }
+
     /// Solves with the last factor, in place.
     ///
     /// # Errors

@@ -61,6 +61,7 @@ fn path() -> Vec<PathPoint> {
             residual: 8e-4,
             flagged: i == 70 || i == 71,
             held: i == 54,
+            unstable: false,
         }
     };
     (0..=112).map(point).collect()

@@ -258,6 +258,7 @@ impl Recorder for LoadRecorder<'_> {
             residual: view.residual,
             flagged: view.flagged,
             held: view.held > 0,
+            unstable: view.negative_pivots > 0,
         });
         let (best, now) = (self.path[self.best], self.path[self.path.len() - 1]);
         if !self.fell && (self.path.len() == 1 || now.load > best.load) {

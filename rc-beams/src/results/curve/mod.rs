@@ -202,6 +202,7 @@ mod tests {
             residual: 5e-4,
             flagged: false,
             held: false,
+            unstable: false,
         };
         loads.iter().enumerate().map(point).collect()
     }

@@ -55,6 +55,7 @@ impl StepRow {
             residual: self.residual,
             flagged: self.flagged,
             held: self.held > 0,
+            unstable: self.negative_pivots > 0,
         }
     }
 

@@ -49,6 +49,7 @@ fn summary(loads: &[f64]) -> Summary {
         residual: if i == 0 { f64::INFINITY } else { 1e-3 },
         flagged: false,
         held: false,
+        unstable: false,
     };
     let path: Vec<_> = loads.iter().enumerate().map(point).collect();
     let capacity = Capacity::of(&path).unwrap();
