@@ -39,6 +39,13 @@ impl Folder {
         for file in WRITTEN_AT_THE_END {
             remove_if_there(&folder.path.join(file)).map_err(|e| folder.error(file, e))?;
         }
+        for entry in fs::read_dir(&folder.path).map_err(|e| folder.error("", e))? {
+            let name = entry.map_err(|e| folder.error("", e))?.file_name();
+            let name = name.to_string_lossy();
+            if name.starts_with("fields_") && name.ends_with(".vtu") {
+                remove_if_there(&folder.path.join(&*name)).map_err(|e| folder.error(&name, e))?;
+            }
+        }
         Ok(folder)
     }
 
@@ -155,16 +162,17 @@ mod tests {
     }
 
     #[test]
-    fn a_new_run_removes_the_summary_of_an_earlier_one_and_nothing_else() {
+    fn a_new_run_removes_results_of_an_earlier_one_and_nothing_else() {
         let root = tempfile::tempdir().unwrap();
         let folder = Folder::create(root.path(), "beam").unwrap();
-        for name in ["summary.json", "notes.txt"] {
+        for name in ["summary.json", "fields_0007.vtu", "notes.txt"] {
             folder
                 .replace(name, |out| out.write_all(b"earlier"))
                 .unwrap();
         }
         Folder::create(root.path(), "beam").unwrap();
         assert!(!folder.path().join("summary.json").exists());
+        assert!(!folder.path().join("fields_0007.vtu").exists());
         assert!(folder.path().join("notes.txt").exists());
     }
 }

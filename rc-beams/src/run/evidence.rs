@@ -7,11 +7,15 @@ use crate::build::{BarKind, Beam};
 use crate::results::evidence::{self, BarReach, ConcretePoint, Layout, ShearSpan};
 use crate::spec::Specimen;
 
-/// Shear spans: between a support and a load that are neighbours.
+/// Shear spans: between a support and a load that are neighbours; over a stub the beam bends like between
+/// the loads, so a span ends at its face.
 pub(super) fn layout(specimen: &Specimen, beam: &Beam) -> Layout {
-    let supports = specimen.supports.iter().map(|s| (s.x_mm.get(), true));
-    let loads = specimen.loads.iter().map(|l| (l.x_mm.get(), false));
-    let mut places: Vec<(f64, bool)> = supports.chain(loads).collect();
+    let supports = specimen.supports.iter().map(|s| {
+        let stub = s.stub.as_ref().map_or(0.0, |stub| stub.length_mm.get());
+        (s.x_mm.get(), true, 0.5 * stub)
+    });
+    let loads = specimen.loads.iter().map(|l| (l.x_mm.get(), false, 0.0));
+    let mut places: Vec<(f64, bool, f64)> = supports.chain(loads).collect();
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
     let test = &specimen.measuring.test_span;
     let middle = 0.5 * (test.x_from_mm.get() + test.x_to_mm.get());
@@ -19,7 +23,7 @@ pub(super) fn layout(specimen: &Specimen, beam: &Beam) -> Layout {
         .windows(2)
         .filter(|pair| pair[0].1 != pair[1].1)
         .map(|pair| {
-            let (from_mm, to_mm) = (pair[0].0, pair[1].0);
+            let (from_mm, to_mm) = (pair[0].0 + pair[0].2, pair[1].0 - pair[1].2);
             let name = if (from_mm..to_mm).contains(&middle) {
                 "test span".into()
             } else {

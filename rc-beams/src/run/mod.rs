@@ -238,7 +238,10 @@ fn run(
         max_rss_mb: resources.max_rss_mb(),
     };
     summary.write(&folder)?;
-    print_result(&summary.line());
+    print_result(&match exit {
+        Exit::Done => summary.line(),
+        _ => format!("{}  stopped: {}", summary.line(), summary.stop_reason),
+    });
     Ok(exit)
 }
 
