@@ -30,6 +30,7 @@
 pub mod assembly;
 pub mod dof;
 pub mod element;
+pub mod energy;
 pub mod grid;
 pub mod kinematics;
 pub mod material;
@@ -38,6 +39,7 @@ pub mod model;
 pub mod output;
 pub mod point;
 pub mod shape;
+pub mod skin;
 pub mod sparsity;
 pub mod state;
 pub mod testing;

@@ -19,8 +19,11 @@ pub enum OnFailure {
 pub struct StepControl {
     /// First step.
     pub initial: f64,
-    /// Longest step.
+    /// Longest step at the start.
     pub longest: f64,
+    /// Share of the load factor reached that a step may take where this is more than `longest`; 0 keeps
+    /// `longest` throughout.
+    pub longest_share: f64,
     /// Shortest step.
     pub shortest: f64,
     /// Load factor at which the stage ends.
@@ -50,6 +53,7 @@ impl StepControl {
         Self {
             initial,
             longest: initial,
+            longest_share: 0.0,
             shortest: initial / 64.0,
             end,
             criterion: 1e-3,
@@ -95,11 +99,12 @@ impl StepControl {
         let mut attempts = 0;
         loop {
             let remaining = self.end - progress;
+            let longest = self.longest.max(self.longest_share * progress);
             if remaining <= 1e-9 * self.end {
                 return Ok(format!("reached the end of the stage at {}", self.end));
             }
             // A last sliver shorter than half a step is merged into this one.
-            let this = if remaining < 1.5 * length && remaining <= self.longest {
+            let this = if remaining < 1.5 * length && remaining <= longest {
                 remaining
             } else {
                 length.min(remaining)
@@ -124,7 +129,7 @@ impl StepControl {
                         return Ok(reason);
                     }
                     length = if easy {
-                        (this * self.growth).max(length).min(self.longest)
+                        (this * self.growth).max(length).min(longest)
                     } else {
                         this.min(length)
                     };

@@ -29,6 +29,8 @@ pub struct Stepping {
 
 /// Longest step over the first one.
 const LONGEST: f64 = 2.0;
+/// Share of the deflection reached that a step may take where this is longer.
+const LONGEST_SHARE: f64 = 0.01;
 /// First step over the shortest one.
 const SHORTEST: f64 = 16.0;
 /// Steps with fewer iterations are followed by longer ones.
@@ -40,6 +42,7 @@ impl Stepping {
     fn control(&self) -> StepControl {
         StepControl {
             longest: (LONGEST * self.initial_mm).min(self.until_mm),
+            longest_share: LONGEST_SHARE,
             shortest: self.initial_mm / SHORTEST,
             criterion: self.criterion,
             easy: EASY,
