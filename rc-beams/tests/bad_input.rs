@@ -476,18 +476,18 @@ fn the_beams_of_the_program_are_listed_and_pass_their_checks() {
         .skip(1)
         .filter_map(|line| line.split_whitespace().next())
         .collect();
-    assert_eq!(beams.len(), 7, "{table}");
+    assert_eq!(beams.len(), 8, "{table}");
     let checked = rc_beams(&[&["check"], &beams[..]].concat(), folder.path());
     assert_eq!(checked.status.code(), Some(0), "{}", message(&checked));
     assert_eq!(
         String::from_utf8_lossy(&checked.stdout)
             .matches(": ok, beam ")
             .count(),
-        7
+        8
     );
     let json = rc_beams(&["list", "--json"], folder.path());
     let rows: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
     assert_eq!(rows[0]["name"], "A-SO3-1");
     assert_eq!(rows[0]["test_load_kn"], 151.0);
-    assert_eq!(rows[6]["test_load_kn"], serde_json::Value::Null);
+    assert_eq!(rows[7]["test_load_kn"], serde_json::Value::Null);
 }

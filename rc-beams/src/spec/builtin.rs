@@ -24,7 +24,7 @@ mod tests {
         assert_eq!(
             files,
             [
-                "A-SO3-1", "A-SO4-1", "A-SW3-1", "A-SW4-1", "B-CF1", "B-CO1", "B-CW1"
+                "A-SO3-1", "A-SO3-4", "A-SO4-1", "A-SW3-1", "A-SW4-1", "B-CF1", "B-CO1", "B-CW1"
             ]
         );
     }
@@ -60,7 +60,7 @@ mod tests {
                 .flat_map(Stirrups::positions)
                 .collect::<Vec<_>>();
             let (count, last) = match s.name.as_str() {
-                "A-SO3-1" | "A-SO4-1" => (13 + 4, Some(3025.0)),
+                "A-SO3-1" | "A-SO3-4" | "A-SO4-1" => (13 + 4, Some(3025.0)),
                 "A-SW3-1" | "A-SW4-1" => (19 + 13, Some(3025.0)),
                 "B-CW1" => (29 + 19, Some(4855.0)),
                 "B-CO1" => (19 + 11, Some(4855.0)),
