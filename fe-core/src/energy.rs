@@ -9,7 +9,7 @@
 
 use rayon::prelude::*;
 
-use crate::element::{ElementError, ElementSystem, EvaluationContext};
+use crate::element::{ElementError, ElementSystem, EvaluationContext, PointSample};
 use crate::kinematics::{Kinematics, Solid};
 use crate::model::{Conditions, Model, ModelError};
 use crate::state::StateStore;
@@ -23,9 +23,6 @@ pub struct PartEnergy {
     pub work: f64,
     /// Recoverable share of it.
     pub stored: f64,
-    /// Dissipation of the tensile principal stresses in solids: cracking. For laws that unload to the origin;
-    /// the remainder of the dissipation is that of the compressive stresses: crushing.
-    pub tensile: f64,
 }
 
 impl PartEnergy {
@@ -39,11 +36,8 @@ impl PartEnergy {
 #[derive(Debug, Clone, Default)]
 struct Last {
     force: Vec<f64>,
-    /// Volume, strain and tensile part of the stress of the points of a solid.
-    points: Vec<(f64, Vector6<f64>, Vector6<f64>)>,
     work: f64,
     stored: f64,
-    tensile: f64,
 }
 
 /// Accounts for the work done on the parts of a model. Starts in the unloaded model.
@@ -52,8 +46,6 @@ pub struct Ledger {
     /// Part of every element.
     part: Vec<usize>,
     parts: usize,
-    /// Whether the stress of a part is split into tension and compression.
-    split: Vec<bool>,
     elements: Vec<Last>,
     displacement: Vec<f64>,
     external: Vec<f64>,
@@ -61,14 +53,12 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// A ledger in which element e belongs to part `part[e]`; `split[p]` asks for the tensile share of the
-    /// dissipation of a part of solids.
-    pub fn new(model: &Model, part: Vec<usize>, split: Vec<bool>) -> Self {
+    /// A ledger of `parts` parts in which element e belongs to part `part[e]`.
+    pub fn new(model: &Model, part: Vec<usize>, parts: usize) -> Self {
         let zero = vec![0.0; model.dofs().len()];
         Self {
             elements: vec![Last::default(); part.len()],
-            parts: split.len(),
-            split,
+            parts,
             part,
             displacement: zero.clone(),
             external: zero,
@@ -90,14 +80,12 @@ impl Ledger {
         state: &StateStore,
     ) -> Result<(), ModelError> {
         let before = &self.displacement;
-        let (part, split) = (&self.part, &self.split);
         self.elements
             .par_iter_mut()
             .enumerate()
             .try_for_each(|(e, last)| {
                 let (own, old) = (model.gather(e, u), model.gather(e, before));
-                let split = part.get(e).and_then(|&p| split.get(p)).is_some_and(|&s| s);
-                last.advance(model, e, (&old, &own), state.committed(e), split)
+                last.advance(model, e, (&old, &own), state.committed(e))
                     .map_err(|source| model.locate(e, source))
             })?;
         let mut external = vec![0.0; u.len()];
@@ -137,7 +125,6 @@ impl Ledger {
             if let Some(sum) = sums.get_mut(p) {
                 sum.work += e.work;
                 sum.stored += e.stored;
-                sum.tensile += e.tensile;
             }
         }
         sums
@@ -161,7 +148,6 @@ impl Last {
         e: usize,
         (old, u): (&[f64], &[f64]),
         state: &[f64],
-        split: bool,
     ) -> Result<(), ElementError> {
         let element = &model.elements()[e];
         let mut force = vec![0.0; u.len()];
@@ -178,24 +164,53 @@ impl Last {
         let half: f64 = force.iter().zip(u).map(|(f, u)| 0.5 * f * u).sum();
         self.stored = element.free_energy(u, state).unwrap_or(half);
         self.force = force;
-        if split {
-            let mut i = 0;
-            element.sample(u, state, &mut |s| {
-                if s.stress.len() != Solid::LEN {
-                    return;
-                }
-                let strain = Vector6::from_column_slice(s.strain);
-                let stress = tensile(&Vector6::from_column_slice(s.stress));
-                if let Some((volume, e0, s0)) = self.points.get_mut(i) {
-                    self.tensile += *volume * 0.5 * (s0.dot(&strain) - stress.dot(e0));
-                    (*e0, *s0) = (strain, stress);
-                } else {
-                    self.points.push((s.volume, strain, stress));
-                }
-                i += 1;
-            })?;
-        }
         Ok(())
+    }
+}
+
+/// Energy dissipated by the tensile principal stresses of cracked points of a solid: cracking. What else the
+/// solid dissipates is crushing.
+///
+/// For laws that unload to the origin, the dissipation of a stress between two states is
+/// (sigma_n : eps_(n+1) - sigma_(n+1) : eps_n)/2; here sigma is the tensile part.
+#[derive(Debug, Clone, Default)]
+pub struct Cracking {
+    /// Strain and tensile part of the stress of every point at the last state.
+    points: Vec<(Vector6<f64>, Vector6<f64>)>,
+    next: usize,
+    dissipated: f64,
+}
+
+impl Cracking {
+    /// Begins a state. Its points are then shown one by one, in the same order as those of the state before.
+    pub const fn begin(&mut self) {
+        self.next = 0;
+    }
+
+    /// Takes a point of a solid.
+    pub fn point(&mut self, sample: &PointSample<'_>) {
+        if sample.strain.len() != Solid::LEN || sample.stress.len() != Solid::LEN {
+            return;
+        }
+        let strain = Vector6::from_column_slice(sample.strain);
+        let stress = if sample.report.crack_strain > 0.0 {
+            tensile(&Vector6::from_column_slice(sample.stress))
+        } else {
+            Vector6::zeros()
+        };
+        match self.points.get_mut(self.next) {
+            Some((e0, s0)) => {
+                self.dissipated += sample.volume * 0.5 * (s0.dot(&strain) - stress.dot(e0));
+                (*e0, *s0) = (strain, stress);
+            }
+            None => self.points.push((strain, stress)),
+        }
+        self.next += 1;
+    }
+
+    /// Energy dissipated so far (N mm).
+    pub const fn dissipated(&self) -> f64 {
+        self.dissipated
     }
 }
 

@@ -3,6 +3,7 @@
 
 pub mod embedded_bar;
 pub mod hex20;
+pub mod installed;
 mod kernel;
 pub mod loads;
 mod points;
@@ -10,4 +11,5 @@ pub mod quad8;
 
 pub use embedded_bar::{Bar, Dowel, EmbeddedBar, embed};
 pub use hex20::{BandWidth, Hex20, HexRule};
+pub use installed::Installed;
 pub use quad8::{Quad8, QuadRule};

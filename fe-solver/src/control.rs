@@ -10,9 +10,13 @@ use crate::stage::Stage;
 pub enum OnFailure {
     /// Stop with [`SolverError::NoConvergence`].
     Stop,
-    /// Accept the best iterate and flag the step.
+    /// Accept the best iterate and flag the step; stop with [`SolverError::NoConvergence`] after
+    /// [`MAX_FLAGGED`] such steps in a row.
     Flag,
 }
+
+/// Steps in a row that may miss the criterion; a path that loses equilibrium for longer is not followed.
+pub const MAX_FLAGGED: usize = 10;
 
 /// Settings of the step control; lengths in units of the load factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,6 +101,7 @@ impl StepControl {
         let mut progress = 0.0;
         let mut step = 1;
         let mut attempts = 0;
+        let mut flagged = 0;
         loop {
             let remaining = self.end - progress;
             let longest = self.longest.max(self.longest_share * progress);
@@ -121,8 +126,11 @@ impl StepControl {
             match attempt {
                 Ok(attempt)
                     if attempt.converged
-                        || (!can_shorten && self.on_failure == OnFailure::Flag) =>
+                        || (!can_shorten
+                            && self.on_failure == OnFailure::Flag
+                            && flagged < MAX_FLAGGED) =>
                 {
+                    flagged = if attempt.converged { 0 } else { flagged + 1 };
                     let easy = attempt.converged && attempt.iterations < self.easy;
                     let verdict = Self::accept(stage, recorder, attempt, step, attempts)?;
                     if let Continue::Stop(reason) = verdict {

@@ -194,6 +194,7 @@ impl Driver for SecantAnderson {
         let mut held = 0;
         if residual.relative > criterion && last_resort {
             relaxation = 0.5;
+            let nearest = (residual.relative, solve.free.clone());
             let mut free = stage.restrict(stage.displacement());
             while held < self.settings.max_holds {
                 held += 1;
@@ -224,8 +225,13 @@ impl Driver for SecantAnderson {
             }
             solve.free = free;
             if residual.relative > criterion {
-                // The last solve failed: return to the state it started from.
+                // The snap was not passed: the nearer of the two states, that where it was left and the best
+                // iterate of the regular solve.
                 residual = Self::check(stage, &solve.free, lambda)?;
+                if nearest.0 < residual.relative {
+                    solve.free = nearest.1;
+                    residual = Self::check(stage, &solve.free, lambda)?;
+                }
             }
         }
         Ok(Attempt {

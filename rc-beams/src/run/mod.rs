@@ -2,6 +2,7 @@
 
 mod evidence;
 mod pictures;
+mod queue;
 mod recording;
 
 use std::time::Instant;
@@ -24,7 +25,7 @@ use crate::results::folder::Folder;
 use crate::results::hash::fingerprint;
 use crate::results::interrupt::Interrupt;
 use crate::results::mode::Diagnosis;
-use crate::results::progress::print_result;
+use crate::results::progress::Board;
 use crate::results::resources::Resources;
 use crate::results::summary::{Figures, Setup, Summary, WallTime, Work};
 use crate::spec::Specimen;
@@ -85,33 +86,24 @@ impl RunError {
     }
 }
 
-/// Runs the specimens one after the other. All models are built before the first one runs.
+/// Runs the specimens, as many at once as there are threads. All models are built before the first one runs.
 ///
 /// # Errors
 ///
 /// [`RunError`]; the results of the beams before are kept.
 pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, RunError> {
     let interrupt = Interrupt::install()?;
-    let settings = settings(options);
-    let threads = options.threads.map_or(0, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()?;
     if let [_, _, ..] = specimens {
         for specimen in specimens {
-            build(specimen, &settings)?;
+            build(specimen, &settings(options, specimen))?;
         }
     }
     output::prepare(&options.output).map_err(ResultsError::from)?;
-    let mut exit = Exit::Done;
-    for specimen in specimens {
-        let one = pool.install(|| run(specimen, options, &settings, &interrupt))?;
-        exit = exit.max(one);
-        if one == Exit::Interrupted {
-            break;
-        }
-    }
-    Ok(exit)
+    let workers = queue::workers(specimens.len(), options.threads.map_or(0, usize::from))?;
+    let board = Board::new();
+    queue::run(&workers, specimens, |specimen, worker| {
+        run(specimen, options, (&interrupt, &board, &worker.threads))
+    })
 }
 
 fn build(specimen: &Specimen, settings: &ModelSettings) -> Result<Beam, RunError> {
@@ -121,9 +113,12 @@ fn build(specimen: &Specimen, settings: &ModelSettings) -> Result<Beam, RunError
     })
 }
 
-fn settings(options: &RunOptions) -> ModelSettings {
-    let mut settings = ModelSettings::new(options.preset);
+fn settings(options: &RunOptions, specimen: &Specimen) -> ModelSettings {
+    let mut settings = ModelSettings::new(options.preset, specimen);
     settings.law = options.law;
+    settings.bond = options.bond;
+    settings.soffit_fibre = options.soffit_fibre.unwrap_or(settings.soffit_fibre);
+    settings.sheet_shear = options.sheet_shear.unwrap_or(settings.sheet_shear);
     if let Some(mesh) = options.mesh {
         settings.mesh = [mesh.nx, mesh.ny, mesh.nz];
     }
@@ -163,17 +158,17 @@ fn driver(options: &RunOptions) -> Box<dyn Driver> {
 fn run(
     specimen: &Specimen,
     options: &RunOptions,
-    settings: &ModelSettings,
-    interrupt: &Interrupt,
+    (interrupt, board, threads): (&Interrupt, &Board, &str),
 ) -> Result<Exit, RunError> {
     let begin = Instant::now();
-    let resources = Resources::start();
-    let beam = build(specimen, settings)?;
+    let resources = Resources::start(threads);
+    let settings = settings(options, specimen);
+    let beam = build(specimen, &settings)?;
     let folder = Folder::create(&options.output, &specimen.name)?;
     let stepping = stepping(specimen, options);
     let mut driver = driver(options);
     let mut recording = Recording::start(
-        &specimen.name,
+        (board, &specimen.name),
         &beam,
         &folder,
         options.fields,
@@ -203,7 +198,7 @@ fn run(
     }
     let (stop_reason, exit) = end(&outcome, interrupt);
     let Some(capacity) = Capacity::of(&outcome.path) else {
-        print_result(&format!("{:<8}  {stop_reason}", specimen.name));
+        board.print_result(&format!("{:<8}  {stop_reason}", specimen.name));
         return Ok(exit);
     };
     let verdict = Verdict::of(&outcome.path, &capacity);
@@ -214,7 +209,7 @@ fn run(
     let peak = evidence::snapshot(&beam, outcome.peak.as_ref().unwrap_or(&outcome.last))?;
     let last = evidence::snapshot(&beam, &outcome.last)?;
     let diagnosis = Diagnosis::of(&layout, &peak, &last, capacity.post_peak_drop);
-    let setup = setup(specimen, options, settings, &beam, driver.name());
+    let setup = setup(specimen, options, &settings, &beam, driver.name());
     pictures::curve(&folder, specimen, &setup, &outcome, (&capacity, &verdict))?;
     let title = format!(
         "cracks at the peak, {:.1} kN at {:.2} mm",
@@ -238,7 +233,7 @@ fn run(
         max_rss_mb: resources.max_rss_mb(),
     };
     summary.write(&folder)?;
-    print_result(&match exit {
+    board.print_result(&match exit {
         Exit::Done => summary.line(),
         _ => format!("{}  stopped: {}", summary.line(), summary.stop_reason),
     });

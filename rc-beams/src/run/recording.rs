@@ -14,7 +14,7 @@ use crate::results::error::ResultsError;
 use crate::results::folder::Folder;
 use crate::results::history::{History, StepRow};
 use crate::results::interrupt::Interrupt;
-use crate::results::progress::{Progress, Status};
+use crate::results::progress::{Board, Progress, Status};
 
 /// Tables, fields and live progress of one beam.
 pub(super) struct Recording<'a> {
@@ -31,7 +31,7 @@ pub(super) struct Recording<'a> {
 
 impl<'a> Recording<'a> {
     pub(super) fn start(
-        name: &str,
+        (board, name): (&Board, &str),
         beam: &'a Beam,
         folder: &Folder,
         fields: Fields,
@@ -56,7 +56,7 @@ impl<'a> Recording<'a> {
             history: History::create(folder, &supports, &gauges)?,
             fields: fields_series,
             every_step: fields == Fields::All,
-            progress: Progress::start(name, until_mm),
+            progress: Progress::start(board, name, until_mm),
             interrupt,
             criterion,
             spent: Duration::ZERO,
