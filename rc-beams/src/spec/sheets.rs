@@ -105,7 +105,7 @@ pub struct Cover {
     /// Direction of the fibres of each ply (degrees), from the beam axis x in the plane of the face: 90 is
     /// vertical on the side, transverse on soffit and top. The first ply lies next to the concrete.
     pub angles_deg: Vec<Angle>,
-    /// Width in the whole section over which every ply lies twice (mm), smeared over the face.
+    /// Width over which every ply lies twice (mm), counted in the whole section; smeared over the cover.
     #[serde(default)]
     pub overlap_mm: Option<Overlap>,
 }
@@ -152,9 +152,7 @@ pub enum HoldOrUnload {
 }
 
 impl Cover {
-    /// Thickness of fibre sheet over that of the plies alone, for an overlap smeared over the face.
-    ///
-    /// The overlap is a width of the whole section, the cover a width of half of it.
+    /// Mean number of times every ply lies on the face, more than 1 with an overlap.
     pub fn smear(&self) -> f64 {
         let width = 2.0 * (self.to_mm.get() - self.from_mm.get());
         self.overlap_mm.map_or(1.0, |o| 1.0 + o.get() / width)
