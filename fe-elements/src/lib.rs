@@ -5,8 +5,9 @@ pub mod embedded_bar;
 pub mod hex20;
 mod kernel;
 pub mod loads;
-mod points;
 pub mod quad8;
+
+use fe_core::points;
 
 pub use embedded_bar::{Bar, Dowel, EmbeddedBar, embed};
 pub use hex20::{BandWidth, Hex20, HexRule};
