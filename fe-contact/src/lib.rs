@@ -6,12 +6,28 @@
 //! and one conformance suite serve it and the laws of solids alike, and the kinematics marker keeps a
 //! lamina from being plugged into an interface.
 //!
-//! This crate holds the vocabulary only so far: the interface element between 8-node faces and the
-//! bond-slip laws of externally bonded sheets (Lu, Teng, Ye and Jiang 2005, among others) will live here.
+//! - [`SlipDamage`] is the law of bonded sheets: damage that grows with the slip, after one of the curves in
+//!   [`envelope`]; [`PullOut`] is the closed form of what it does to a strip.
+//! - [`MixedMode`] is the law of delamination in opening and shear.
+//! - [`Interface16`] is the element between two 8-node faces.
+
+pub mod envelope;
+mod interface16;
+mod limits;
+mod mixed_mode;
+mod normal;
+mod pull_out;
+mod slip_damage;
 
 use fe_core::kinematics::Kinematics;
 
+pub use envelope::Envelope;
 pub use fe_core::kinematics::Interface;
+pub use interface16::{Interface16, InterfaceRule};
+pub use mixed_mode::{MixedMode, MixedModeParameters};
+pub use normal::{BondSettings, Normal};
+pub use pull_out::PullOut;
+pub use slip_damage::SlipDamage;
 
 /// Splits a jump (mm) into the length of its slip, sqrt(s_1^2 + s_2^2), and its opening (mm), negative in
 /// contact.

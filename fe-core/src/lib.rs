@@ -38,6 +38,7 @@ pub mod mesh;
 pub mod model;
 pub mod output;
 pub mod point;
+pub mod points;
 pub mod shape;
 pub mod skin;
 pub mod sparsity;

@@ -6,8 +6,9 @@ pub mod hex20;
 pub mod installed;
 mod kernel;
 pub mod loads;
-mod points;
 pub mod quad8;
+
+use fe_core::points;
 
 pub use embedded_bar::{Bar, Dowel, EmbeddedBar, embed};
 pub use hex20::{BandWidth, Hex20, HexRule};

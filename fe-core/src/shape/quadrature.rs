@@ -1,4 +1,4 @@
-//! Gauss-Legendre rules and their tensor products.
+//! Gauss-Legendre rules and their tensor products, and the Gauss-Lobatto rule of three points.
 
 /// Abscissae and weights of the `n`-point Gauss-Legendre rule on [-1, 1], n from 1 to 4; exact for
 /// polynomials of degree 2n - 1. More points than 4 give the 4-point rule.
@@ -26,6 +26,15 @@ pub fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
 /// Tensor-product rule with `n` points per direction on the square.
 pub fn square(n: usize) -> Vec<([f64; 2], f64)> {
     let line = gauss_legendre(n);
+    line.iter()
+        .flat_map(|&(y, wy)| line.iter().map(move |&(x, wx)| ([x, y], wx * wy)))
+        .collect()
+}
+
+/// Tensor product of the 3-point Gauss-Lobatto rule (Simpson's) on the square: points on the corners, the
+/// mid-sides and the centre; exact for polynomials of degree 3 in each coordinate.
+pub fn lobatto_square() -> Vec<([f64; 2], f64)> {
+    let line = [(-1.0, 1.0 / 3.0), (0.0, 4.0 / 3.0), (1.0, 1.0 / 3.0)];
     line.iter()
         .flat_map(|&(y, wy)| line.iter().map(move |&(x, wx)| ([x, y], wx * wy)))
         .collect()
@@ -61,6 +70,11 @@ mod tests {
                 assert!((sum - exact).abs() < 1e-14);
             }
         }
+        let cubic: f64 = lobatto_square()
+            .iter()
+            .map(|([x, y], w)| w * (1.0 + x * x) * (2.0 + y * y * y))
+            .sum();
+        assert!((cubic - 32.0 / 3.0).abs() < 1e-14);
         assert!((cube(3).iter().map(|p| p.1).sum::<f64>() - 8.0).abs() < 1e-14);
     }
 }

@@ -1,12 +1,12 @@
-//! What every element does with its integration points. Their histories are slices of equal length, one after
-//! the other.
+//! What every element does with its integration points: for whoever writes an element. The histories of the
+//! points are slices of equal length, one after the other.
 
-use fe_core::element::{ElementError, EvaluationContext, PointSample};
-use fe_core::kinematics::Kinematics;
-use fe_core::material::{Material, PointContext};
+use crate::element::{ElementError, EvaluationContext, PointSample};
+use crate::kinematics::Kinematics;
+use crate::material::{Material, PointContext};
 
 /// Context of a point of the given crack-band width (mm) within an evaluation.
-pub(crate) const fn context(band_width: f64, ctx: &EvaluationContext) -> PointContext {
+pub const fn context(band_width: f64, ctx: &EvaluationContext) -> PointContext {
     PointContext {
         band_width,
         operator: ctx.operator,
@@ -15,7 +15,7 @@ pub(crate) const fn context(band_width: f64, ctx: &EvaluationContext) -> PointCo
 }
 
 /// Writes the virgin state of every point.
-pub(crate) fn init_state<K: Kinematics>(law: &dyn Material<K>, state: &mut [f64]) {
+pub fn init_state<K: Kinematics>(law: &dyn Material<K>, state: &mut [f64]) {
     let n = law.state_len();
     if n > 0 {
         for own in state.chunks_exact_mut(n) {
@@ -25,7 +25,7 @@ pub(crate) fn init_state<K: Kinematics>(law: &dyn Material<K>, state: &mut [f64]
 }
 
 /// [`Material::latch`] for every point.
-pub(crate) fn latch<K: Kinematics>(law: &dyn Material<K>, trial: &[f64], base: &mut [f64]) {
+pub fn latch<K: Kinematics>(law: &dyn Material<K>, trial: &[f64], base: &mut [f64]) {
     let n = law.state_len();
     if n > 0 {
         for (t, b) in trial.chunks_exact(n).zip(base.chunks_exact_mut(n)) {
@@ -35,7 +35,7 @@ pub(crate) fn latch<K: Kinematics>(law: &dyn Material<K>, trial: &[f64], base: &
 }
 
 /// Sum over the points, given as volume (mm3) and strain, of the free energy (N mm).
-pub(crate) fn free_energy<K: Kinematics>(
+pub fn free_energy<K: Kinematics>(
     law: &dyn Material<K>,
     band_width: f64,
     state: &[f64],
@@ -52,7 +52,11 @@ pub(crate) fn free_energy<K: Kinematics>(
 }
 
 /// Shows every point, given as position (mm), volume (mm3) and strain, with the stress of a committed state.
-pub(crate) fn sample<K: Kinematics>(
+///
+/// # Errors
+///
+/// [`ElementError::Material`], naming the point.
+pub fn sample<K: Kinematics>(
     law: &dyn Material<K>,
     band_width: f64,
     state: &[f64],

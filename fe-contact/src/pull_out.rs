@@ -1,0 +1,108 @@
+//! Closed form of a sheet pulled off a rigid substrate.
+
+use fe_core::material::MaterialError;
+
+use crate::envelope::{Bilinear, Envelope};
+use crate::limits::positive;
+
+/// A sheet of unit width with bilinear bond over a length L on a rigid substrate, pulled at one end.
+///
+/// delta'' = tau(delta)/(E_f t_f), force per width p = E_f t_f delta' at the loaded end. With
+/// lambda_1^2 = tau_max/(s0 E_f t_f) and lambda_2^2 = tau_max/((s_f - s0) E_f t_f), and a the length that
+/// softens next to the loaded end:
+///
+/// | stage | p |
+/// |---|---|
+/// | elastic, up to s0 at the loaded end | (tau_max/lambda_1) tanh(lambda_1 L) delta/s0 |
+/// | elastic and softening | (tau_max/lambda_2) \[(lambda_2/lambda_1) tanh(lambda_1 (L-a)) cos(lambda_2 a) + sin(lambda_2 a)\] |
+/// | peak: tanh(lambda_1 (L-a)) = (lambda_2/lambda_1) tan(lambda_2 a) | (tau_max/lambda_2) s_f/(s_f - s0) sin(lambda_2 a) |
+///
+/// Source: H. Yuan, J. G. Teng, R. Seracino, Z. S. Wu and J. Yao, Engineering Structures 26 (2004) 553-565.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PullOut {
+    bond: Bilinear,
+    membrane: f64,
+    lambda: [f64; 2],
+}
+
+impl PullOut {
+    /// A sheet of membrane stiffness `membrane_n_per_mm` = E_f t_f (N/mm).
+    ///
+    /// # Errors
+    ///
+    /// [`MaterialError::Parameter`] unless it is positive.
+    pub fn new(bond: Bilinear, membrane_n_per_mm: f64) -> Result<Self, MaterialError> {
+        positive(
+            "pull-out",
+            &[("membrane_n_per_mm", membrane_n_per_mm, "N/mm")],
+        )?;
+        let (s0, sf) = (bond.peak_slip(), bond.final_slip());
+        let lambda =
+            [s0, sf - s0].map(|slip| (bond.strength() / (slip * membrane_n_per_mm)).sqrt());
+        Ok(Self {
+            bond,
+            membrane: membrane_n_per_mm,
+            lambda,
+        })
+    }
+
+    /// lambda_1 and lambda_2 (1/mm).
+    pub const fn lambda(&self) -> [f64; 2] {
+        self.lambda
+    }
+
+    /// Largest force per width (N/mm) that any bond length can carry: sqrt(2 G_f E_f t_f).
+    pub fn ultimate(&self) -> f64 {
+        (2.0 * self.bond.energy() * self.membrane).sqrt()
+    }
+
+    /// Force per width (N/mm) at which the loaded end reaches s0.
+    pub fn elastic_limit(&self, length: f64) -> f64 {
+        let l1 = self.lambda[0];
+        self.bond.strength() / l1 * (l1 * length).tanh()
+    }
+
+    /// Force per width (N/mm) and displacement (mm) of the loaded end while `softened` (mm) of the length
+    /// softens.
+    pub fn softening(&self, length: f64, softened: f64) -> (f64, f64) {
+        let [l1, l2] = self.lambda;
+        let (s0, sf) = (self.bond.peak_slip(), self.bond.final_slip());
+        let tanh = l2 / l1 * (l1 * (length - softened)).tanh();
+        let (sin, cos) = (l2 * softened).sin_cos();
+        (
+            self.bond.strength() / l2 * (tanh * cos + sin),
+            s0 + (sf - s0) * (tanh * sin - cos + 1.0),
+        )
+    }
+
+    /// Softened length (mm), force per width (N/mm) and displacement of the loaded end (mm) at the peak.
+    pub fn peak(&self, length: f64) -> (f64, f64, f64) {
+        let [l1, l2] = self.lambda;
+        let (mut low, mut high) = (0.0, length.min(0.5 * std::f64::consts::PI / l2));
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            // Times cos(lambda_2 a) > 0, which keeps it finite.
+            let (sin, cos) = (l2 * middle).sin_cos();
+            if (l1 * (length - middle)).tanh() * cos > l2 / l1 * sin {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let (force, displacement) = self.softening(length, low);
+        (low, force, displacement)
+    }
+
+    /// Effective length (mm): the bond length whose strength is `share` of [`Self::ultimate`]; 0.97 in Yuan et
+    /// al. (2004), 0.99 in Lu et al. (2005).
+    ///
+    /// lambda_2 a = asin(share sqrt((s_f - s0)/s_f)),
+    /// L_e = a + ln((lambda_1 + lambda_2 tan(lambda_2 a))/(lambda_1 - lambda_2 tan(lambda_2 a)))/(2 lambda_1).
+    pub fn effective_length(&self, share: f64) -> f64 {
+        let [l1, l2] = self.lambda;
+        let (s0, sf) = (self.bond.peak_slip(), self.bond.final_slip());
+        let a = (share * ((sf - s0) / sf).sqrt()).asin() / l2;
+        let t = l2 * (l2 * a).tan();
+        a + ((l1 + t) / (l1 - t)).ln() / (2.0 * l1)
+    }
+}
