@@ -228,6 +228,7 @@ fn run(
         stop_reason,
         diagnosis,
         self_weight_reaction_kn: outcome.self_weight_kn,
+        energy: None,
         wall_s: wall,
         cpu_s: resources.cpu_s(),
         max_rss_mb: resources.max_rss_mb(),

@@ -1,5 +1,9 @@
 //! `summary.json`: what a run says, in one object.
 
+mod energy;
+
+pub use energy::{Energy, PartEnergy};
+
 use std::io;
 
 use fe_solver::capacity::{Capacity, PathPoint, Verdict};
@@ -11,7 +15,7 @@ use super::folder::Folder;
 use super::mode::Diagnosis;
 
 /// One run of one specimen. The groups are flattened: the file is one object without nesting but for
-/// `wall_s`. What does not exist, or is not finite, is `null`.
+/// `energy` and `wall_s`. What does not exist, or is not finite, is `null`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
     /// What was run.
@@ -34,6 +38,8 @@ pub struct Summary {
     pub ratio_model_to_test: Option<f64>,
     /// Sum of the vertical reactions under self weight (kN), whole width.
     pub self_weight_reaction_kn: f64,
+    /// Energy by part, where it is followed.
+    pub energy: Option<Energy>,
     /// Wall time (s).
     pub wall_s: WallTime,
     /// Processor time of all threads (s).
