@@ -40,7 +40,7 @@ struct Last {
     stored: f64,
 }
 
-/// Accounts for the work done on the parts of a model. Starts in the unloaded model.
+/// Accounts for the work done on the parts of a model. Starts in the undeformed, unloaded model.
 #[derive(Debug)]
 pub struct Ledger {
     /// Part of every element.
@@ -54,16 +54,22 @@ pub struct Ledger {
 
 impl Ledger {
     /// A ledger of `parts` parts in which element e belongs to part `part[e]`.
-    pub fn new(model: &Model, part: Vec<usize>, parts: usize) -> Self {
-        let zero = vec![0.0; model.dofs().len()];
+    pub fn new(part: Vec<usize>, parts: usize) -> Self {
         Self {
             elements: vec![Last::default(); part.len()],
             parts,
             part,
-            displacement: zero.clone(),
-            external: zero,
+            displacement: Vec::new(),
+            external: Vec::new(),
             external_work: 0.0,
         }
+    }
+
+    /// Goes on with a model that has more elements or DOFs, displaced by `u`: what was added does no work
+    /// up to there.
+    pub fn rebase(&mut self, u: &[f64]) {
+        self.displacement = u.to_vec();
+        self.external = vec![0.0; u.len()];
     }
 
     /// Records an accepted state of a stage.
@@ -79,9 +85,12 @@ impl Ledger {
         u: &[f64],
         state: &StateStore,
     ) -> Result<(), ModelError> {
+        self.displacement.resize(u.len(), 0.0);
+        self.external.resize(u.len(), 0.0);
         let before = &self.displacement;
         self.elements
             .par_iter_mut()
+            .take(model.elements().len())
             .enumerate()
             .try_for_each(|(e, last)| {
                 let (own, old) = (model.gather(e, u), model.gather(e, before));

@@ -81,6 +81,8 @@ pub struct Beam {
     pub model: Model,
     /// Elements of concrete, stubs included.
     pub concrete: Range<usize>,
+    /// Crack-band width of every element of concrete (mm).
+    pub bands: Vec<f64>,
     /// Elements of the plates.
     pub plates: Range<usize>,
     /// Bars and the elements they were cut into.
@@ -166,19 +168,16 @@ impl Beam {
         let concrete_laws = laws::concrete_laws(specimen, settings, &mesh)?;
         let mut elements: Vec<Box<dyn Element>> = Vec::new();
         let mut weight = Vec::new();
+        let mut bands = Vec::new();
         let density = laws::weight_density(specimen);
         let band = settings.band_width();
         for (name, law) in &concrete_laws {
             for (nodes, coords) in cells(&mesh, name) {
                 weight.extend(loads::body_force(&nodes, &coords, [0.0, -density, 0.0]));
-                let law = law.clone();
-                elements.push(Box::new(Hex20::new(
-                    nodes,
-                    &coords,
-                    settings.integration,
-                    law,
-                    band,
-                )?));
+                let (law, rule) = (law.clone(), settings.integration);
+                let element = Hex20::new(nodes, &coords, rule, law, band)?;
+                bands.push(element.band_width());
+                elements.push(Box::new(element));
             }
         }
         let concrete = 0..elements.len();
@@ -228,6 +227,7 @@ impl Beam {
         Ok(Self {
             model,
             concrete,
+            bands,
             plates,
             bars,
             sheets,

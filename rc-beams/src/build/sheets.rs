@@ -31,6 +31,8 @@ pub struct Zone {
     pub x_from_mm: f64,
     /// Right end (mm).
     pub x_to_mm: f64,
+    /// Lower and upper end on the side (mm); equal where it leaves the side bare.
+    pub side_mm: [f64; 2],
 }
 
 /// One element of sheet with its bond.
@@ -122,6 +124,7 @@ pub(super) fn lay(
                 },
                 x_from_mm: stretch.x_from_mm.get(),
                 x_to_mm: stretch.x_to_mm.get(),
+                side_mm: side(&wrap.faces),
             });
             let covered: Vec<(skin::Face, &Cover, &Arc<Laminate>)> = wrap
                 .faces
@@ -200,6 +203,14 @@ fn lies_on(face: &skin::Face, specimen: &Specimen, stretch: &Stretch, cover: &Co
     };
     on && within(x, stretch.x_from_mm.get(), stretch.x_to_mm.get())
         && within(across, cover.from_mm.get(), cover.to_mm.get())
+}
+
+/// Extent of the covers on the side (mm).
+fn side(covers: &[Cover]) -> [f64; 2] {
+    let on_side = covers.iter().filter(|c| c.face == Face::Side);
+    let ends = on_side.map(|c| [c.from_mm.get(), c.to_mm.get()]);
+    ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+        .unwrap_or_default()
 }
 
 /// Elements of the sheets by kind.
