@@ -110,7 +110,8 @@ pub trait Observer {
     /// # Errors
     ///
     /// An output error ends the run.
-    fn step(&mut self, view: &StepView<'_>, step: usize, reading: &Reading) -> io::Result<Continue>;
+    fn step(&mut self, view: &StepView<'_>, step: usize, reading: &Reading)
+    -> io::Result<Continue>;
 
     /// Sheets have been bonded to the loaded beam: from now on it is this one, with `u` the displacements of
     /// all its DOFs.

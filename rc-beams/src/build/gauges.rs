@@ -120,7 +120,12 @@ impl Gauge {
     }
 
     /// A gauge on the sheets at the points `ends` (mm), read along the line between them.
-    fn between(ends: [[f64; 3]; 2], name: String, cells: &[[NodeId; 8]], model: &Model) -> Option<Self> {
+    fn between(
+        ends: [[f64; 3]; 2],
+        name: String,
+        cells: &[[NodeId; 8]],
+        model: &Model,
+    ) -> Option<Self> {
         let [a, b] = ends.map(Vector3::from);
         let length = (b - a).norm();
         let along = (b - a) / length;
@@ -141,6 +146,11 @@ impl Gauge {
         Some(Self { name, kind })
     }
 
+    /// Whether it is on a sheet.
+    pub const fn is_on_sheet(&self) -> bool {
+        matches!(self.kind, Kind::Sheet { .. })
+    }
+
     /// Makes the strain of a sheet at `u` its zero: the sheet is bonded in that state.
     pub fn zero_at(&mut self, u: &[f64]) {
         if let Kind::Sheet { factors, bonded_at } = &mut self.kind {
@@ -150,12 +160,17 @@ impl Gauge {
 }
 
 /// Cell of rectangular sheet that holds a point, and its shape functions there.
-fn locate(point: Vector3<f64>, cells: &[[NodeId; 8]], model: &Model) -> Option<([NodeId; 8], [f64; 8])> {
+fn locate(
+    point: Vector3<f64>,
+    cells: &[[NodeId; 8]],
+    model: &Model,
+) -> Option<([NodeId; 8], [f64; 8])> {
     const SLACK: f64 = 1.0 + 1e-9;
     cells.iter().find_map(|&nodes| {
         let x = |a: usize| Vector3::from(model.mesh().nodes()[nodes[a]]);
         let (e1, e2) = (x(1) - x(0), x(3) - x(0));
-        let natural = |edge: Vector3<f64>| 2.0 * (point - x(0)).dot(&edge) / edge.norm_squared() - 1.0;
+        let natural =
+            |edge: Vector3<f64>| 2.0 * (point - x(0)).dot(&edge) / edge.norm_squared() - 1.0;
         let xi = [natural(e1), natural(e2)];
         let off = (point - x(0)).dot(&e1.cross(&e2).normalize()).abs();
         (off < ON && xi.iter().all(|c| c.abs() <= SLACK)).then(|| (nodes, quad8::shape(xi).0))

@@ -89,11 +89,7 @@ pub fn default_mesh(specimen: &Specimen) -> [usize; 3] {
     let along = |n| axis_lines(specimen.beam.length_mm.get(), &patches, &edges[0], n).is_some();
     let up = |n| axis_lines(specimen.beam.height_mm.get(), &[], &edges[1], n).is_some();
     let across = |n| axis_lines(specimen.half_width_mm(), &[], &edges[2], n).is_some();
-    [
-        least(nx, along),
-        least(STRENGTHENED, up),
-        least(1, across),
-    ]
+    [least(nx, along), least(STRENGTHENED, up), least(1, across)]
 }
 
 /// The least number from `n` on that will do; every number of lines does in the end.

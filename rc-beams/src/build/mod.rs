@@ -222,7 +222,8 @@ impl Beam {
         };
         let model = Model::new(mesh, elements);
         let measures = Measures::new(specimen, &model)?;
-        let [weight, loading, unloading] = conditions::stages(specimen, &model, &measures, &weight)?;
+        let [weight, loading, unloading] =
+            conditions::stages(specimen, &model, &measures, &weight)?;
         let gauges = gauges::gauges(specimen, &model, &bars, sheets.as_ref());
         Ok(Self {
             model,

@@ -3,7 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use fe_contact::{BondSettings, Interface16, InterfaceRule, LuJoint, SlipDamage};
+use fe_contact::envelope::LuJoint;
+use fe_contact::{BondSettings, Interface16, InterfaceRule, SlipDamage};
 use fe_core::element::Element;
 use fe_core::mesh::{Mesh, NodeId};
 use fe_core::skin::{self, Layers};
@@ -131,7 +132,9 @@ pub(super) fn lay(
                 .iter()
                 .zip(&laminates)
                 .flat_map(|(cover, laminate)| {
-                    let faces = outer.iter().filter(|f| lies_on(f, specimen, stretch, cover));
+                    let faces = outer
+                        .iter()
+                        .filter(|f| lies_on(f, specimen, stretch, cover));
                     faces.map(move |f| (*f, cover, laminate))
                 })
                 .collect();
@@ -270,7 +273,10 @@ fn bond(specimen: &Specimen) -> Result<SlipDamage, BuildError> {
 }
 
 fn glue(adhesive: &Adhesive) -> Result<Elastic, BuildError> {
-    Ok(Elastic::new(adhesive.young_mpa.get(), adhesive.poisson.get())?)
+    Ok(Elastic::new(
+        adhesive.young_mpa.get(),
+        adhesive.poisson.get(),
+    )?)
 }
 
 /// Plies of a cover, as the settings read them.

@@ -4,6 +4,8 @@ mod evidence;
 mod pictures;
 mod queue;
 mod recording;
+mod sheets;
+mod watch;
 
 use std::time::Instant;
 
@@ -15,21 +17,24 @@ use fe_solver::error::SolverError;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings, Refactor};
 use fe_solver::secant::SecantAnderson;
 
-use crate::analysis::{Outcome, Stepping, analyse};
+use crate::analysis::{AnalysisError, Outcome, Staging, Stepping, analyse};
 use crate::build::{Beam, BuildError, ModelSettings};
 use crate::exit::Exit;
 use crate::options::{self, Integration, RunOptions};
 use crate::output;
 use crate::results::error::ResultsError;
+use crate::results::evidence::{Layout, Snapshot};
 use crate::results::folder::Folder;
 use crate::results::hash::fingerprint;
 use crate::results::interrupt::Interrupt;
 use crate::results::mode::Diagnosis;
 use crate::results::progress::Board;
 use crate::results::resources::Resources;
+use crate::results::sheets::{MapState, SheetDrop};
 use crate::results::summary::{Figures, Setup, Summary, WallTime, Work};
 use crate::spec::Specimen;
 use recording::Recording;
+use watch::Watch;
 
 /// First step of the load stage (mm of imposed deflection). Steps from 0.006 to 0.06 mm put the peak of
 /// A-SO3-1 between 138.5 and 140.7 kN, with the characteristic preset between 148.7 and 155.9 kN: the path
@@ -68,7 +73,7 @@ pub enum RunError {
         /// Specimen.
         specimen: String,
         /// Why.
-        reason: Box<SolverError>,
+        reason: Box<AnalysisError>,
     },
     /// A state cannot be read.
     #[error(transparent)]
@@ -167,15 +172,28 @@ fn run(
     let folder = Folder::create(&options.output, &specimen.name)?;
     let stepping = stepping(specimen, options);
     let mut driver = driver(options);
+    let layout = evidence::layout(specimen, &beam);
     let mut recording = Recording::start(
         (board, &specimen.name),
-        &beam,
+        (&beam, &layout),
         &folder,
         options.fields,
         (stepping.until_mm, stepping.criterion),
         interrupt,
     )?;
-    let outcome = match analyse(&beam, &stepping, driver.as_mut(), &mut recording) {
+    let staging = specimen.staged.as_ref().map(|staged| Staging {
+        specimen,
+        settings: &settings,
+        staged,
+    });
+    let done = analyse(
+        &beam,
+        staging.as_ref(),
+        &stepping,
+        driver.as_mut(),
+        &mut recording,
+    );
+    let outcome = match done {
         Ok(outcome) => outcome,
         Err(_) if interrupt.is_set() => return Ok(Exit::Interrupted),
         Err(error) => {
@@ -185,9 +203,11 @@ fn run(
             });
         }
     };
+    let beam = outcome.strengthened.as_ref().unwrap_or(&beam);
     let states: Vec<_> = outcome.peak.iter().chain([&outcome.last]).collect();
+    let (watch, writing) = recording.finish(&beam.model, &states)?;
     let mut wall = WallTime {
-        output: recording.finish(&states)?.as_secs_f64(),
+        output: writing.as_secs_f64(),
         ..WallTime::default()
     };
     let drawing = Instant::now();
@@ -205,17 +225,27 @@ fn run(
     let Some(figures) = Figures::of(&outcome.path, &capacity, &verdict) else {
         return Ok(exit);
     };
-    let layout = evidence::layout(specimen, &beam);
-    let peak = evidence::snapshot(&beam, outcome.peak.as_ref().unwrap_or(&outcome.last))?;
-    let last = evidence::snapshot(&beam, &outcome.last)?;
-    let diagnosis = Diagnosis::of(&layout, &peak, &last, capacity.post_peak_drop);
-    let setup = setup(specimen, options, &settings, &beam, driver.name());
+    let at_peak = outcome.peak.as_ref().unwrap_or(&outcome.last);
+    let peak = evidence::snapshot(beam, at_peak)?;
+    let last = evidence::snapshot(beam, &outcome.last)?;
+    let diagnosis = diagnosis(&layout, (&peak, &last), &outcome, &capacity, &watch);
+    let setup = setup(specimen, options, &settings, beam, driver.name());
     pictures::curve(&folder, specimen, &setup, &outcome, (&capacity, &verdict))?;
     let title = format!(
         "cracks at the peak, {:.1} kN at {:.2} mm",
         figures.peak_load_kn, figures.deflection_at_peak_mm
     );
-    pictures::crack(&folder, specimen, &beam, &peak, &title)?;
+    pictures::crack(&folder, specimen, beam, &peak, &title)?;
+    if let Some(record) = &beam.sheets {
+        let states = [(MapState::Peak, at_peak), (MapState::End, &outcome.last)];
+        pictures::sheets(
+            &folder,
+            specimen,
+            (beam, record),
+            watch.sheet_layout(),
+            states,
+        )?;
+    }
     wall.output += drawing.elapsed().as_secs_f64();
     wall.total = begin.elapsed().as_secs_f64();
     let test = specimen.test.as_ref().map(|t| t.load_kn.get());
@@ -228,7 +258,7 @@ fn run(
         stop_reason,
         diagnosis,
         self_weight_reaction_kn: outcome.self_weight_kn,
-        energy: None,
+        energy: Some(watch.energy()),
         wall_s: wall,
         cpu_s: resources.cpu_s(),
         max_rss_mb: resources.max_rss_mb(),
@@ -241,12 +271,34 @@ fn run(
     Ok(exit)
 }
 
+fn diagnosis(
+    layout: &Layout,
+    (peak, last): (&Snapshot, &Snapshot),
+    outcome: &Outcome,
+    capacity: &Capacity,
+    watch: &Watch,
+) -> Diagnosis {
+    let rows = watch.rows();
+    // Rows before the sheets were bonded do not belong to the path.
+    let rows = &rows[rows.len().saturating_sub(outcome.path.len())..];
+    let drop = SheetDrop::of(watch.sheet_layout(), rows, &outcome.path, capacity);
+    match drop {
+        Some(sheets) if !watch.sheet_layout().zones.is_empty() => {
+            let states = (peak, last);
+            Diagnosis::strengthened(layout, states, capacity.post_peak_drop, &sheets, None)
+        }
+        _ => Diagnosis::of(layout, peak, last, capacity.post_peak_drop),
+    }
+}
+
 /// Why the path ended, and what that means for the exit code.
 fn end(outcome: &Outcome, interrupt: &Interrupt) -> (String, Exit) {
     match &outcome.stop {
         Ok(reason) => (reason.clone(), Exit::Done),
         Err(_) if interrupt.is_set() => ("stopped by the user".into(), Exit::Interrupted),
-        Err(error @ SolverError::Output(_)) => (error.to_string(), Exit::File),
+        Err(error @ AnalysisError::Solver(SolverError::Output(_))) => {
+            (error.to_string(), Exit::File)
+        }
         Err(error) => (error.to_string(), Exit::StoppedEarly),
     }
 }

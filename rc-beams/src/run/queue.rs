@@ -48,12 +48,16 @@ pub(super) fn run<T: Sync>(
 ) -> Result<Exit, RunError> {
     let state = Mutex::new((items.iter(), Ok(Exit::Done)));
     let next = || {
-        let mut guard = state.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut guard = state
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
         let stopped = matches!(guard.1, Err(_) | Ok(Exit::Interrupted));
         if stopped { None } else { guard.0.next() }
     };
     let done = |result: Result<Exit, RunError>| {
-        let mut guard = state.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut guard = state
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
         match (&mut guard.1, result) {
             (Err(_), _) => {}
             (gravest, Err(error)) => *gravest = Err(error),
@@ -69,7 +73,9 @@ pub(super) fn run<T: Sync>(
             });
         }
     });
-    let (_, result) = state.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let (_, result) = state
+        .into_inner()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
     result
 }
 
@@ -84,7 +90,10 @@ mod tests {
     fn threads_are_shared_out() {
         let sizes = |beams, threads| -> Vec<usize> {
             let workers = workers(beams, threads).unwrap();
-            workers.iter().map(|w| w.pool.current_num_threads()).collect()
+            workers
+                .iter()
+                .map(|w| w.pool.current_num_threads())
+                .collect()
         };
         assert_eq!(sizes(1, 2), [2]);
         assert_eq!(sizes(21, 2), [1, 1]);

@@ -48,7 +48,11 @@ pub(super) fn state(
             spec::Face::Soffit => Face::Soffit,
             spec::Face::Top => Face::Top,
         };
-        let ply = cell.laminate.plies().first().map_or(0.0, |p| p.thickness_mm);
+        let ply = cell
+            .laminate
+            .plies()
+            .first()
+            .map_or(0.0, |p| p.thickness_mm);
         let thickness = cell.laminate.thickness_mm();
         let own = model.gather(cell.membrane, u);
         model.elements()[cell.membrane]

@@ -21,7 +21,14 @@ use crate::results::sheets::{SheetLayout, SheetRow, SheetTable};
 use crate::results::summary::{Energy, PartEnergy};
 
 /// Parts of the energy balance.
-const PARTS: [&str; 6] = ["concrete", "plates", "bars", "sheets", "adhesive", "interface"];
+const PARTS: [&str; 6] = [
+    "concrete",
+    "plates",
+    "bars",
+    "sheets",
+    "adhesive",
+    "interface",
+];
 /// Whole width in J per N mm of the half model.
 const JOULE: f64 = 2e-3;
 
@@ -37,7 +44,11 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    pub(super) fn start(beam: &Beam, layout: &Layout, folder: &Folder) -> Result<Self, ResultsError> {
+    pub(super) fn start(
+        beam: &Beam,
+        layout: &Layout,
+        folder: &Folder,
+    ) -> Result<Self, ResultsError> {
         let sheet_layout = sheets::layout(beam, layout);
         let table = match &beam.sheets {
             Some(_) => Some(SheetTable::create(folder, layout, &sheet_layout)?),
