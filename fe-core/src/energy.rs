@@ -184,10 +184,18 @@ impl Last {
 /// (sigma_n : eps_(n+1) - sigma_(n+1) : eps_n)/2; here sigma is the tensile part.
 #[derive(Debug, Clone, Default)]
 pub struct Cracking {
-    /// Strain and tensile part of the stress of every point at the last state.
-    points: Vec<(Vector6<f64>, Vector6<f64>)>,
+    points: Vec<Seen>,
     next: usize,
     dissipated: f64,
+}
+
+/// A point at the last state.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    strain: Vector6<f64>,
+    /// Its tensile part once the point has cracked.
+    stress: Vector6<f64>,
+    cracked: bool,
 }
 
 impl Cracking {
@@ -202,19 +210,28 @@ impl Cracking {
             return;
         }
         let strain = Vector6::from_column_slice(sample.strain);
-        let stress = if sample.report.crack_strain > 0.0 {
-            tensile(&Vector6::from_column_slice(sample.stress))
-        } else {
-            Vector6::zeros()
+        let stress = Vector6::from_column_slice(sample.stress);
+        let Some(seen) = self.points.get_mut(self.next) else {
+            self.next += 1;
+            self.points.push(Seen {
+                strain,
+                stress,
+                cracked: false,
+            });
+            return;
         };
-        match self.points.get_mut(self.next) {
-            Some((e0, s0)) => {
-                self.dissipated += sample.volume * 0.5 * (s0.dot(&strain) - stress.dot(e0));
-                (*e0, *s0) = (strain, stress);
-            }
-            None => self.points.push((strain, stress)),
-        }
         self.next += 1;
+        if !seen.cracked && sample.report.crack_strain <= 0.0 {
+            (seen.strain, seen.stress) = (strain, stress);
+            return;
+        }
+        if !seen.cracked {
+            (seen.stress, seen.cracked) = (tensile(&seen.stress), true);
+        }
+        let stress = tensile(&stress);
+        self.dissipated +=
+            sample.volume * 0.5 * (seen.stress.dot(&strain) - stress.dot(&seen.strain));
+        (seen.strain, seen.stress) = (strain, stress);
     }
 
     /// Energy dissipated so far (N mm).
