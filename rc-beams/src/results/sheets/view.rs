@@ -27,6 +27,15 @@ impl Shown {
         }
     }
 
+    /// Title of the picture of the peak (kN, mm).
+    pub fn title(self, load_kn: f64, deflection_mm: f64) -> String {
+        let what = match self {
+            Self::Slip => "slip between sheets and concrete",
+            Self::FibreStress => "fibre stress of the sheets",
+        };
+        format!("{what} at the peak, {load_kn:.1} kN at {deflection_mm:.2} mm")
+    }
+
     const fn label(self) -> &'static str {
         match self {
             Self::Slip => "slip [mm]",
