@@ -1,14 +1,19 @@
-//! Finite elements: the 20-node hexahedron, the 8-node plane-stress quadrilateral and bars embedded in
-//! hexahedra of any shape, with consistent loads.
+//! Finite elements: the 20-node hexahedron, 8-node plane-stress quadrilaterals in a plane and in space, and bars
+//! embedded in hexahedra of any shape, with consistent loads.
 
 pub mod embedded_bar;
 pub mod hex20;
 mod kernel;
 pub mod loads;
+pub mod membrane8;
 pub mod quad8;
+pub mod sheet;
+mod surface;
 
 use fe_core::points;
 
 pub use embedded_bar::{Bar, Dowel, EmbeddedBar, embed};
 pub use hex20::{BandWidth, Hex20, HexRule};
+pub use membrane8::Membrane8;
 pub use quad8::{Quad8, QuadRule};
+pub use sheet::Sheet;

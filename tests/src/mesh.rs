@@ -9,7 +9,8 @@ use fe_core::kinematics::{PlaneStress, Solid};
 use fe_core::material::Material;
 use fe_core::mesh::{Block, CellKind, Mesh, MeshError, NodeId};
 use fe_core::shape::{hex20, quad8};
-use fe_elements::{BandWidth, Hex20, HexRule, Quad8, QuadRule};
+use fe_elements::{BandWidth, Hex20, HexRule, Membrane8, Quad8, QuadRule};
+use nalgebra::{Rotation3, Unit, Vector3};
 
 /// Name of the only block of [`boxes`].
 pub const BLOCK: &str = "block";
@@ -177,6 +178,12 @@ pub fn quadrilaterals(n: usize, map: impl Fn(f64, f64) -> [f64; 2]) -> Result<Me
     Ok(mesh)
 }
 
+/// Rotation about (1, 2, 3) by one radian: takes the x-y plane to one oblique to all axes.
+pub fn oblique(x: [f64; 3]) -> [f64; 3] {
+    let axis = Unit::new_normalize(Vector3::new(1.0, 2.0, 3.0));
+    (Rotation3::from_axis_angle(&axis, 1.0) * Vector3::from(x)).into()
+}
+
 /// One plane-stress element in every quadrilateral of the mesh.
 ///
 /// # Errors
@@ -193,6 +200,28 @@ pub fn sheets(
         let nodes: [NodeId; 8] = std::array::from_fn(|a| cell[a]);
         let coords = nodes.map(|n| [mesh.nodes()[n][0], mesh.nodes()[n][1]]);
         let element = Quad8::new(nodes, &coords, thickness, rule, Arc::clone(law))?;
+        Ok(Box::new(element) as Box<dyn Element>)
+    };
+    blocks.flat_map(Block::cells).map(element).collect()
+}
+
+/// One membrane in every quadrilateral of the mesh, axis 1 of the law along the projection of `axis`.
+///
+/// # Errors
+///
+/// [`ElementError`] for a distorted cell, an impossible thickness or axis.
+pub fn membranes(
+    mesh: &Mesh,
+    thickness: f64,
+    rule: QuadRule,
+    axis: [f64; 3],
+    law: &Arc<dyn Material<PlaneStress>>,
+) -> Result<Vec<Box<dyn Element>>, ElementError> {
+    let blocks = mesh.blocks().iter().filter(|b| b.kind == CellKind::Quad8);
+    let element = |cell: &[NodeId]| {
+        let nodes: [NodeId; 8] = std::array::from_fn(|a| cell[a]);
+        let coords = nodes.map(|n| mesh.nodes()[n]);
+        let element = Membrane8::new(nodes, &coords, thickness, rule, axis, Arc::clone(law))?;
         Ok(Box::new(element) as Box<dyn Element>)
     };
     blocks.flat_map(Block::cells).map(element).collect()

@@ -10,7 +10,7 @@ use fe_core::material::{Material, MaterialError};
 use fe_core::mesh::{CellKind, Mesh, NodeId};
 use fe_core::model::{Conditions, Model, ModelError};
 use fe_core::shape::quad8;
-use fe_elements::{Quad8, QuadRule};
+use fe_elements::{Membrane8, QuadRule};
 use fe_materials::Elastic;
 
 /// Width b_f of the strip of the closed form (mm).
@@ -82,23 +82,22 @@ impl Strip {
         let fibres = Arc::new(fibres);
         let mut elements: Vec<Box<dyn Element>> = Vec::new();
         for cell in &cells {
-            let flat = cell.map(|n| [places[n][0], places[n][1]]);
-            elements.push(Box::new(Quad8::new(
+            elements.push(Box::new(Membrane8::new(
                 *cell,
-                &flat,
+                &cell.map(|n| places[n]),
                 THICKNESS,
                 QuadRule::Full,
+                [1.0, 0.0, 0.0],
                 fibres.clone(),
             )?));
         }
         for cell in &cells {
             let coords = cell.map(|n| places[n]);
             let nodes = std::array::from_fn(|a| if a < 8 { count + cell[a] } else { cell[a - 8] });
-            let along = [1.0, 0.0, 0.0];
             elements.push(Box::new(Interface16::new(
                 nodes,
                 &coords,
-                along,
+                [1.0, 0.0, 0.0],
                 rule,
                 Arc::clone(law),
             )?));

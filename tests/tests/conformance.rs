@@ -11,7 +11,7 @@ use fe_core::material::{Material, Operator};
 use fe_core::mesh::{CellKind, Mesh};
 use fe_core::shape::{hex20, quad8};
 use fe_core::testing::{ElementCheck, check_element};
-use fe_elements::{BandWidth, Bar, Dowel, Hex20, HexRule, Quad8, QuadRule, embed};
+use fe_elements::{BandWidth, Bar, Dowel, Hex20, HexRule, Membrane8, Quad8, QuadRule, embed};
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 use fe_materials::{Biso, Elastic, VonMises};
 
@@ -98,6 +98,31 @@ fn quadrilaterals() {
     }
 }
 
+/// A membrane curved in both directions.
+fn saddle() -> [[f64; 3]; 8] {
+    quad8::NODES.map(|[x, y]| {
+        [
+            25.0 * x + 2.0 * x * y,
+            24.0 * y + x,
+            6.0 * x * x - 4.0 * x * y,
+        ]
+    })
+}
+
+/// Curved membranes in space with both rules.
+#[test]
+fn membranes() {
+    let coords = saddle();
+    let law = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
+    for rule in [QuadRule::Reduced, QuadRule::Full] {
+        let nodes = std::array::from_fn(|a| a);
+        let axis = [0.0, 1.0, 1.0];
+        let element = Membrane8::new(nodes, &coords, 10.0, rule, axis, law.clone()).unwrap();
+        let report = check_element(&element, &coords, &ElementCheck::new(0.05)).unwrap();
+        assert_eq!(report.motions, 6);
+    }
+}
+
 /// Elastic elements: twice the free energy is the work of the nodal forces, and the sum over the sampled points of volume,
 /// stress and strain. Target: equal within rounding.
 #[test]
@@ -116,6 +141,14 @@ fn energies_agree() {
         QuadRule::Full,
         law.clone(),
     );
+    let membrane = Membrane8::new(
+        std::array::from_fn(|a| a),
+        &saddle(),
+        10.0,
+        QuadRule::Full,
+        [0.0, 1.0, 1.0],
+        law.clone(),
+    );
     let solid = Hex20::new(
         nodes,
         &coords,
@@ -130,8 +163,11 @@ fn energies_agree() {
         law,
         dowel: None,
     };
-    let mut elements: Vec<Box<dyn Element>> =
-        vec![Box::new(solid.unwrap()), Box::new(sheet.unwrap())];
+    let mut elements: Vec<Box<dyn Element>> = vec![
+        Box::new(solid.unwrap()),
+        Box::new(sheet.unwrap()),
+        Box::new(membrane.unwrap()),
+    ];
     for element in embed(&[bar], &mesh, &["host"]).unwrap() {
         elements.push(Box::new(element));
     }

@@ -18,7 +18,10 @@ use fe_solver::error::SolverError;
 use fe_tests::conditions::hold;
 use fe_tests::dense::{DenseModel, energy};
 use fe_tests::laws::elastic;
-use fe_tests::mesh::{boxes, hexahedra, hexahedra_of, lines, nodes_where, quadrilaterals, sheets};
+use fe_tests::mesh::{
+    boxes, hexahedra, hexahedra_of, lines, mapped, membranes, nodes_where, oblique, quadrilaterals,
+    sheets,
+};
 use fe_tests::solve::solve;
 
 fn block(cells: [usize; 3], size: [f64; 3], rule: HexRule) -> Model {
@@ -64,6 +67,20 @@ fn one_quadrilateral() {
         let law: Arc<dyn Material<PlaneStress>> = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
         let mesh = quadrilaterals(1, |x, y| [50.0 * x, 50.0 * y]).unwrap();
         let elements = sheets(&mesh, 1.0, rule, &law).unwrap();
+        let model = Model::new(mesh, elements);
+        assert_eq!(zeros(&model, &Conditions::new(&model)), expected);
+    }
+}
+
+/// EL-02: a membrane in space, oblique to all axes, has these modes and the 8 displacements out of its plane: 11 zeros
+/// with 9 points, 12 with 4.
+#[test]
+fn one_membrane() {
+    for (rule, expected) in [(QuadRule::Full, 11), (QuadRule::Reduced, 12)] {
+        let law: Arc<dyn Material<PlaneStress>> = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
+        let mesh = quadrilaterals(1, |x, y| [50.0 * x, 50.0 * y + 7.0 * x * y]).unwrap();
+        let mesh = mapped(&mesh, oblique).unwrap();
+        let elements = membranes(&mesh, 1.0, rule, [1.0, 0.0, 0.0], &law).unwrap();
         let model = Model::new(mesh, elements);
         assert_eq!(zeros(&model, &Conditions::new(&model)), expected);
     }
