@@ -233,10 +233,6 @@ fn long_strip_through_its_snap_back() {
         .max_by(|a, b| a.0[0].total_cmp(&b.0[0]))
         .unwrap()
         .0;
-        "turning {turning:?}, area {}, steps {}",
-        area(&rows),
-        rows.len()
-    );
     assert_close(turning[0], 1.76917, 1e-3);
     assert_close(turning[1], 9003.0, 1e-2);
     // All of what is left softens: the slip of the free end is beyond s0.
