@@ -26,7 +26,7 @@ const CONCRETES: [(f64, [f64; 6]); 5] = [
 fn assert_digits(found: f64, target: f64) {
     let text = target.to_string();
     let digits = text.split_once('.').map_or(0, |(_, d)| d.len());
-    let unit = 10.0_f64.powi(-(digits as i32));
+    let unit = 0.1_f64.powf(digits as f64);
     assert!(
         (found - target).abs() <= 0.51 * unit,
         "{found} for {target}"

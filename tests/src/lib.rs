@@ -12,3 +12,4 @@ pub mod laws;
 pub mod mesh;
 pub mod solve;
 pub mod stress;
+pub mod strip;
