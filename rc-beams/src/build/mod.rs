@@ -7,6 +7,8 @@ mod lines;
 mod mesh;
 mod reinforcement;
 mod settings;
+#[cfg(test)]
+mod sheet_tests;
 mod sheets;
 #[cfg(test)]
 mod tests;
