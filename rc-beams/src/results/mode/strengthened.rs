@@ -27,7 +27,7 @@
 //! | 9 | otherwise, without a drop to 0.8 of the peak | undecided |
 //!
 //! Row 7 is what remains when steel is elastic and the sheets keep their force: the concrete. The thresholds of
-//! loss, debonded share and ratio were set on twelve histories of strengthened beams, not on an independent
+//! loss, debonded share and ratio were set on ten histories of strengthened beams, not on an independent
 //! set; refining a mesh can move a beam by one row.
 
 use std::fmt;

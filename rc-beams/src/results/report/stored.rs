@@ -209,11 +209,14 @@ impl Row<'_> {
     }
 }
 
+/// Whether a row can be read.
+type Visited = Result<(), Box<dyn Error>>;
+
 /// Visits the rows of a table up to the first that cannot be read.
 fn rows(
     folder: &Path,
     file: &str,
-    visit: &mut dyn FnMut(&Row<'_>) -> Result<(), Box<dyn Error>>,
+    visit: &mut dyn FnMut(&Row<'_>) -> Visited,
 ) -> Result<(), String> {
     let path = folder.join(file);
     if !exists(&path) {

@@ -13,9 +13,9 @@ const SAME_COLUMN_MM: f64 = 1e-3;
 pub struct SpanReading {
     /// Largest fibre stress on all faces (MPa); 0 where all are in compression.
     pub stress_mpa: f64,
-    /// Largest vertical force SVf that the sides can carry across a diagonal crack (kN):
-    /// $$ S_{Vf} = \sum_\text{columns} 2\, t\, \Delta x\, \max_y \sigma_f $$
-    /// over the columns of points of the side, both sides of the beam.
+    /// Largest vertical force that the sides can carry across a diagonal crack (kN), whole width:
+    /// SVf = sum of 2 t dx max_y(sigma_f) over the columns of points of the side, t the thickness, dx the
+    /// width of a column, sigma_f the fibre stress where it is tension.
     pub force_kn: f64,
     /// Share of the bonded side that is debonded; none without bonded side.
     pub debonded: Option<f64>,

@@ -249,20 +249,12 @@ fn pictures_are_drawn_from_the_rows_alone_and_mark_what_is_debonded() {
         supports: &[],
         loads: &[],
     };
-    let strokes = |svg: &str| svg.matches("#0072B2").count();
+    let strokes = |svg: &str| svg.matches("#56B4E9").count();
     let peak = view(Shown::Slip, MapState::Peak).to_svg().unwrap();
     assert!(peak.contains("slip [mm]") && peak.contains("debonded") && peak.contains("0.125"));
     // Both strips are debonded at the end, one at the peak; the legend has strokes, too.
-    let legend = strokes(&peak).saturating_sub(strokes(
-        &view(Shown::FibreStress, MapState::Peak).to_svg().unwrap(),
-    ));
     let end = view(Shown::Slip, MapState::End).to_svg().unwrap();
-    assert!(
-        legend > 0 && strokes(&end) > strokes(&peak),
-        "{} {}",
-        strokes(&end),
-        strokes(&peak)
-    );
+    assert!(strokes(&peak) > 10 && strokes(&end) > strokes(&peak) + 10);
     let stress = view(Shown::FibreStress, MapState::Peak).to_svg().unwrap();
     assert!(stress.contains("fibre stress [MPa]") && stress.contains("1000"));
     assert_eq!(strokes(&stress), 0);

@@ -6,7 +6,7 @@ use plotters::style::Color;
 
 use super::{Face, MapKind, MapRow, MapState, Zone};
 use crate::results::drawing::{Area, Drawn, Picture, draw_heading, line, outline, text, units};
-use crate::results::palette::{BLUE, GREY, INK, sequential};
+use crate::results::palette::{GREY, INK, SKY_BLUE, sequential};
 use crate::results::side_view::{ColourScale, Corners, Frame, SIDE, WIDTH};
 
 /// Quantity of the picture.
@@ -151,6 +151,8 @@ impl SheetView<'_> {
                 ) else {
                     continue;
                 };
+                let zone = self.zones.iter().find(|z| z.name == row.zone);
+                let [x, y] = zone.map_or([x, y], |z| [within(x, z.x_mm), within(y, z.y_mm)]);
                 let corners = [[x[0], y[0]], [x[1], y[1]]];
                 cells.push(Cell {
                     corners,
@@ -215,6 +217,11 @@ fn interval(places: &[f64], value: f64) -> [f64; 2] {
     ]
 }
 
+/// An interval, its ends moved into another one.
+fn within([a, b]: [f64; 2], [low, high]: [f64; 2]) -> [f64; 2] {
+    [a.max(low), b.min(high)]
+}
+
 /// Oblique strokes over a rectangle, at the same places in neighbouring ones.
 fn hatch<DB: DrawingBackend>(area: &Area<'_, DB>, corners: [(i32, i32); 2]) -> Drawn<DB> {
     let [a, b] = corners;
@@ -228,7 +235,7 @@ fn hatch<DB: DrawingBackend>(area: &Area<'_, DB>, corners: [(i32, i32); 2]) -> D
         let end = right.min(c - top);
         if start < end {
             let ends = vec![(start, c - start), (end, c - end)];
-            area.draw(&PathElement::new(ends, line(BLUE, 1.0)))?;
+            area.draw(&PathElement::new(ends, line(SKY_BLUE, 1.5)))?;
         }
         c += step;
     }
