@@ -37,6 +37,10 @@ pub struct RunOptions {
     #[arg(long, value_enum)]
     pub sheet_shear: Option<SheetShear>,
 
+    /// Run strengthened beams a second time with perfect bond, as evidence for the mode of failure
+    #[arg(long)]
+    pub counterfactual: bool,
+
     /// Solution of a step
     #[arg(long, value_enum, default_value_t)]
     pub driver: Driver,

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use fe_contact::envelope::LuJoint;
+use fe_contact::envelope::{Bilinear, LuJoint};
 use fe_contact::{BondSettings, Interface16, InterfaceRule, SlipDamage};
 use fe_core::element::Element;
 use fe_core::mesh::{Mesh, NodeId};
@@ -58,7 +58,9 @@ pub struct SheetRecord {
     pub zones: Vec<Zone>,
     /// Elements of sheet.
     pub cells: Vec<SheetCell>,
-    /// Law of the bond.
+    /// Curve of the bond.
+    pub curve: Bilinear,
+    /// Law of the bond, with that curve.
     pub bond: SlipDamage,
     /// Sheet elements.
     pub membranes: Range<usize>,
@@ -96,7 +98,8 @@ pub(super) fn lay(
     settings: &ModelSettings,
     (mesh, blocks): (&mut Mesh, &[&str]),
 ) -> Result<(SheetRecord, Vec<Box<dyn Element>>), BuildError> {
-    let bond = bond(specimen)?;
+    let curve = bond(specimen)?;
+    let bond = SlipDamage::new(curve, BondSettings::default())?;
     let glue: SolidLaw = Arc::new(glue(&sheets.adhesive)?);
     let outer = skin::outer_faces(mesh, blocks);
     let mut parts = Parts::default();
@@ -107,6 +110,7 @@ pub(super) fn lay(
         adhesive: 0..0,
         interfaces: 0..0,
         nodes: Vec::new(),
+        curve,
         bond: bond.clone(),
     };
     let law: Arc<SlipDamage> = Arc::new(bond);
@@ -265,11 +269,10 @@ impl Parts {
 /// Bond after Lu, Teng, Ye and Jiang (2005), bilinear. The reported strength is read as the characteristic one,
 /// fcm = reported + 8 MPa, and the width factor is that of a sheet as wide as the concrete, also under strips: so
 /// the reference arrives at its table of bonds.
-fn bond(specimen: &Specimen) -> Result<SlipDamage, BuildError> {
+fn bond(specimen: &Specimen) -> Result<Bilinear, BuildError> {
     let strength = specimen.concrete.reported_strength_mpa.get();
     let fcm = ConcreteScalars::from_characteristic(strength)?.fcm_mpa;
-    let curve = LuJoint::from_cylinder_strength(fcm, 1.0).bilinear()?;
-    Ok(SlipDamage::new(curve, BondSettings::default())?)
+    Ok(LuJoint::from_cylinder_strength(fcm, 1.0).bilinear()?)
 }
 
 fn glue(adhesive: &Adhesive) -> Result<Elastic, BuildError> {

@@ -1,7 +1,9 @@
 //! Runs specimens: model, analysis, files and the line on the terminal.
 
+mod counterfactual;
 mod evidence;
 mod pictures;
+mod pull_out;
 mod queue;
 mod recording;
 mod sheets;
@@ -171,6 +173,10 @@ fn run(
     let beam = build(specimen, &settings)?;
     let folder = Folder::create(&options.output, &specimen.name)?;
     let stepping = stepping(specimen, options);
+    let bond_error = match &beam.sheets {
+        Some(sheets) => pull_out::error(&beam.model, sheets)?,
+        None => None,
+    };
     let mut driver = driver(options);
     let layout = evidence::layout(specimen, &beam);
     let mut recording = Recording::start(
@@ -181,6 +187,9 @@ fn run(
         (stepping.until_mm, stepping.criterion),
         interrupt,
     )?;
+    if let Some(error) = &bond_error {
+        recording.note(&error.to_string());
+    }
     let staging = specimen.staged.as_ref().map(|staged| Staging {
         specimen,
         settings: &settings,
@@ -228,7 +237,20 @@ fn run(
     let at_peak = outcome.peak.as_ref().unwrap_or(&outcome.last);
     let peak = evidence::snapshot(beam, at_peak)?;
     let last = evidence::snapshot(beam, &outcome.last)?;
-    let diagnosis = diagnosis(&layout, (&peak, &last), &outcome, &capacity, &watch);
+    let ratio = match &beam.sheets {
+        Some(_) if options.counterfactual => {
+            let peak = counterfactual::peak_kn(specimen, &settings, &stepping, options, interrupt)?;
+            peak.map(|perfect| perfect / figures.peak_load_kn)
+        }
+        _ => None,
+    };
+    let diagnosis = diagnosis(
+        &layout,
+        (&peak, &last),
+        &outcome,
+        (&capacity, ratio),
+        &watch,
+    );
     let setup = setup(specimen, options, &settings, beam, driver.name());
     pictures::curve(&folder, specimen, &setup, &outcome, (&capacity, &verdict))?;
     let title = format!(
@@ -257,6 +279,7 @@ fn run(
         figures,
         stop_reason,
         diagnosis,
+        bond_error,
         self_weight_reaction_kn: outcome.self_weight_kn,
         energy: Some(watch.energy()),
         wall_s: wall,
@@ -275,7 +298,7 @@ fn diagnosis(
     layout: &Layout,
     (peak, last): (&Snapshot, &Snapshot),
     outcome: &Outcome,
-    capacity: &Capacity,
+    (capacity, ratio): (&Capacity, Option<f64>),
     watch: &Watch,
 ) -> Diagnosis {
     let rows = watch.rows();
@@ -285,7 +308,7 @@ fn diagnosis(
     match drop {
         Some(sheets) if !watch.sheet_layout().zones.is_empty() => {
             let states = (peak, last);
-            Diagnosis::strengthened(layout, states, capacity.post_peak_drop, &sheets, None)
+            Diagnosis::strengthened(layout, states, capacity.post_peak_drop, &sheets, ratio)
         }
         _ => Diagnosis::of(layout, peak, last, capacity.post_peak_drop),
     }

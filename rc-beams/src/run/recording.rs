@@ -70,6 +70,11 @@ impl<'a> Recording<'a> {
         })
     }
 
+    /// Says something that stays on the terminal.
+    pub(super) fn note(&self, text: &str) {
+        self.progress.note(text);
+    }
+
     /// Ends; writes the fields of the given states of a model, unless every step has been written. Returns
     /// the evidence gathered and the wall time spent writing.
     pub(super) fn finish(

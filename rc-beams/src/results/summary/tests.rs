@@ -75,6 +75,7 @@ fn summary(loads: &[f64]) -> Summary {
         test_load_kn: Some(151.0),
         ratio_model_to_test: Some(149.2 / 151.0),
         self_weight_reaction_kn: f64::NAN,
+        bond_error: None,
         energy: None,
         wall_s: WallTime {
             total: 6.14,
