@@ -9,6 +9,7 @@ pub mod membrane8;
 mod points;
 pub mod quad8;
 pub mod sheet;
+pub mod shell8;
 mod surface;
 
 pub use embedded_bar::{Bar, Dowel, EmbeddedBar, embed};
@@ -16,3 +17,4 @@ pub use hex20::{BandWidth, Hex20, HexRule};
 pub use membrane8::Membrane8;
 pub use quad8::{Quad8, QuadRule};
 pub use sheet::Sheet;
+pub use shell8::{Layer, Shell8, ShellSection};

@@ -10,5 +10,6 @@ pub mod dense;
 pub mod figure;
 pub mod laws;
 pub mod mesh;
+pub mod shell;
 pub mod solve;
 pub mod stress;
