@@ -1,5 +1,5 @@
-//! Finite elements: the 20-node hexahedron, 8-node plane-stress quadrilaterals in a plane and in space, and bars
-//! embedded in hexahedra of any shape, with consistent loads.
+//! Finite elements: the 20-node hexahedron, 8-node plane-stress quadrilaterals in a plane and in space, the 8-node
+//! layered shell, and bars embedded in hexahedra of any shape, with consistent loads.
 
 pub mod embedded_bar;
 pub mod hex20;

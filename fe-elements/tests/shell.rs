@@ -232,7 +232,7 @@ fn impossible_shells_are_refused() {
     let upright = build(&section(), &flat, [0.0, 0.0, 1.0]).unwrap_err();
     assert!(upright.to_string().contains("axis 1"), "{upright}");
     // A stack thicker than the radius of its surface turns inside out.
-    let thick = change(&|s| s.layers[0].thickness_mm = 60.0);
+    let thick = change(&|s| s.layers[0].thickness_mm = 120.0);
     let bent = quad8::NODES.map(|[x, y]| {
         let (s, c) = (0.5 * y).sin_cos();
         [10.0 * x, 20.0 * s, 20.0 * c]

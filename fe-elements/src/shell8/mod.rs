@@ -1,5 +1,6 @@
 //! The 8-node layered shell.
 
+mod director;
 mod section;
 mod transverse;
 
@@ -10,7 +11,6 @@ use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, 
 use fe_core::kinematics::PlaneStress;
 use fe_core::material::{Material, Operator, PointContext};
 use fe_core::mesh::{CellKind, NodeId};
-use fe_core::shape::quad8;
 use nalgebra::Vector3;
 
 use crate::points;
@@ -18,6 +18,7 @@ use crate::quad8::QuadRule;
 use crate::sheet::Point;
 use crate::surface;
 
+use director::{directors, with_rotations};
 pub use section::{Layer, ShellSection};
 use transverse::{TiedShear, add_drilling};
 
@@ -39,6 +40,11 @@ const DOFS_PER_ELEMENT: usize = 48;
 ///   the rotation of the surface in its plane, holds the rotation about the normal. The stiffness c is
 ///   [`ShellSection::drilling`] times half the trace of A. Rigid-body motions and constant membrane strain do not
 ///   strain it.
+///
+/// With [`QuadRule::Reduced`] membrane strains do not lock either; a single free element then has one mechanism
+/// beside its rigid-body modes (two if it is flat), which a neighbour prevents. With [`QuadRule::Full`] it has none,
+/// but a thin curved shell is far too stiff on a coarse mesh. The director is taken as normal to the surface between
+/// the nodes too, and the thickness is measured along the normal.
 ///
 /// Sources: S. Ahmad, B. M. Irons, O. C. Zienkiewicz, "Analysis of thick and thin shell structures by curved finite
 /// elements", Int. J. Numer. Meth. Eng. 2 (1970) 419-451 (kinematics); K.-J. Bathe, E. N. Dvorkin, "A formulation
@@ -158,38 +164,6 @@ struct LayerPoints<'a> {
     points: &'a [Point<DOFS_PER_ELEMENT>],
     /// Its part of the state of the element.
     history: std::ops::Range<usize>,
-}
-
-/// Unit normals of the surface at the nodes.
-fn directors(coords: &[[f64; 3]; 8]) -> Result<[Vector3<f64>; 8], ElementError> {
-    let mut directors = [Vector3::zeros(); 8];
-    for (point, xi) in quad8::NODES.into_iter().enumerate() {
-        let [along, across] = surface::base(coords, &quad8::shape(xi).1);
-        let normal = along.cross(&across);
-        let determinant = normal.norm();
-        if determinant.is_nan() || determinant <= 0.0 {
-            return Err(ElementError::Jacobian { point, determinant });
-        }
-        directors[point] = normal / determinant;
-    }
-    Ok(directors)
-}
-
-/// Strain rows on displacements and rotations, from those on the displacements u + z theta x d of a level.
-fn with_rotations(
-    rows: &[[f64; 24]; 3],
-    z: f64,
-    directors: &[Vector3<f64>; 8],
-) -> [[f64; DOFS_PER_ELEMENT]; 3] {
-    rows.map(|row| {
-        let mut out = [0.0; DOFS_PER_ELEMENT];
-        for (a, b) in row.chunks_exact(3).enumerate() {
-            let turn = z * directors[a].cross(&Vector3::from_column_slice(b));
-            out[6 * a..6 * a + 3].copy_from_slice(b);
-            out[6 * a + 3..6 * a + 6].copy_from_slice(turn.as_slice());
-        }
-        out
-    })
 }
 
 /// An error of a layer, its point counted in the element.
