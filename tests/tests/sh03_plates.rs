@@ -1,9 +1,10 @@
 //! SH-03: square plates of side 1 under uniform pressure q, E = 1e6, nu = 0.3; deflection of the middle.
 //!
 //! Source: S. Timoshenko and S. Woinowsky-Krieger, "Theory of Plates and Shells", 2nd ed. (1959), tables 8 and 35, with
-//! more digits of the series: thin plates, 0.00406235 q L^4/D simply supported, 0.00126532 q L^4/D clamped. Thick plates, simply supported with the
-//! rotation along the edge held: the thin deflection plus M/(k G t), M = 0.0736713 q L^2 being the solution of
-//! Laplace M = -q, as D Laplace w = -M; C. M. Wang, J. N. Reddy, K. H. Lee, "Shear Deformable Beams and Plates" (2000).
+//! more digits of the series: thin plates, 0.00406235 q L^4/D simply supported, 0.00126532 q L^4/D clamped. Thick
+//! plates, simply supported with the rotation along the edge held: the thin deflection plus M/(k G t), M = 0.0736713 q
+//! L^2 being the solution of Laplace M = -q, as D Laplace w = -M; C. M. Wang, J. N. Reddy, K. H. Lee, "Shear Deformable
+//! Beams and Plates" (2000).
 
 use std::f64::consts::TAU;
 
