@@ -1,5 +1,5 @@
-//! Finite elements: the 20-node hexahedron, 8-node plane-stress quadrilaterals in a plane and in space, and bars
-//! embedded in hexahedra of any shape, with consistent loads.
+//! Finite elements: the 20-node hexahedron, 8-node plane-stress quadrilaterals in a plane and in space, the 8-node
+//! layered shell, and bars embedded in hexahedra of any shape, with consistent loads.
 
 pub mod embedded_bar;
 pub mod hex20;
@@ -9,6 +9,7 @@ pub mod loads;
 pub mod membrane8;
 pub mod quad8;
 pub mod sheet;
+pub mod shell8;
 mod surface;
 
 use fe_core::points;
@@ -19,3 +20,4 @@ pub use installed::Installed;
 pub use membrane8::Membrane8;
 pub use quad8::{Quad8, QuadRule};
 pub use sheet::Sheet;
+pub use shell8::{Layer, Shell8, ShellSection};
