@@ -1,0 +1,228 @@
+//! STR-04: double cantilever beam (mode I) and end-notched flexure (mode II); E = 120 000 MPa, width 20 mm, arms of 1.5 mm,
+//! G_c = 0.28 N/mm.
+//!
+//! Source: beam theory. DCB: P = sqrt(G_c b^2 E h^3/12)/a, w = 8 P a^3/(E b h^3), hence 64.807 N at 1.7282 mm (a = 30 mm),
+//! 48.606 N at 3.0724 mm (40 mm). ENF over 2 L = 100 mm: P = 4b/(3a) sqrt(G_c E h^3),
+//! w = P (2 L^3 + 3 a^3)/(8 b h^3 E); displacement control follows from a = 34.67 mm on. The give of crack tip and interface
+//! lengthens a in both formulas alike, so that load over displacement stays the same curve.
+
+use std::sync::Arc;
+
+use fe_contact::envelope::{Bilinear, BilinearSlips};
+use fe_contact::{
+    BondSettings, Interface, Interface16, InterfaceRule, MixedMode, MixedModeParameters, SlipDamage,
+};
+use fe_core::dof::Dof;
+use fe_core::element::Element;
+use fe_core::material::Material;
+use fe_core::mesh::{CellKind, Mesh, NodeId};
+use fe_core::model::{Conditions, Model};
+use fe_elements::HexRule;
+use fe_materials::Elastic;
+use fe_solver::control::StepControl;
+use fe_solver::recorder::StepView;
+use fe_solver::secant::SecantAnderson;
+use fe_tests::conditions::hold;
+use fe_tests::mesh::{BLOCK, boxes, faces, hexahedra, lines, nodes_where};
+use fe_tests::solve::run;
+
+const YOUNG: f64 = 120_000.0;
+const B: f64 = 20.0;
+const H: f64 = 1.5;
+const ENERGY: f64 = 0.28;
+const HALF_SPAN: f64 = 50.0;
+
+fn delamination() -> Arc<dyn Material<Interface>> {
+    let law = MixedMode::new(MixedModeParameters {
+        stiffness_mpa_per_mm: 1e5,
+        normal_strength_mpa: 15.0,
+        shear_strength_mpa: 40.0,
+        mode_1_energy_n_per_mm: ENERGY,
+        mode_2_energy_n_per_mm: ENERGY,
+        exponent: 2.0,
+        residual: 1e-6,
+    });
+    Arc::new(law.unwrap())
+}
+
+/// Faces that cannot part and hardly resist slip.
+fn slides() -> Arc<dyn Material<Interface>> {
+    let curve = Bilinear::from_slips(&BilinearSlips {
+        strength_mpa: 1e-6,
+        peak_slip_mm: 1e-6,
+        final_slip_mm: 2e-6,
+    });
+    let settings = BondSettings {
+        normal_over_initial: 1e5,
+        ..BondSettings::default()
+    };
+    Arc::new(SlipDamage::new(curve.unwrap(), settings).unwrap())
+}
+
+/// Two arms with an interface whose law depends on the place of the face along x; none where there is no law.
+fn arms(x: &[f64], law: impl Fn(f64) -> Option<Arc<dyn Material<Interface>>>) -> Model {
+    let lower = boxes(x, &[0.0, B], &[-H, 0.0]).unwrap();
+    let count = lower.nodes().len();
+    let mut nodes = lower.nodes().to_vec();
+    nodes.extend(lower.nodes().iter().map(|[x, y, z]| [*x, *y, z + H]));
+    let mut mesh = Mesh::new(nodes).unwrap();
+    let mut cells: Vec<NodeId> = lower.blocks()[0].cells().flatten().copied().collect();
+    cells.extend(cells.clone().iter().map(|n| n + count));
+    mesh.add_block(BLOCK, CellKind::Hex20, cells).unwrap();
+
+    let arm: Arc<dyn Material<_>> = Arc::new(Elastic::new(YOUNG, 0.0).unwrap());
+    let mut elements = hexahedra(&mesh, HexRule::Reduced, &arm).unwrap();
+    let upper = nodes_where(&mesh, |x| x[2] == 0.0)
+        .into_iter()
+        .filter(|&n| n >= count);
+    let upper: Vec<NodeId> = upper.collect();
+    for face in faces(&lower, |x| x[2] == 0.0) {
+        let coords = face.map(|n| mesh.nodes()[n]);
+        let Some(law) = law(0.5 * (coords[0][0] + coords[2][0])) else {
+            continue;
+        };
+        let above = |n: NodeId| {
+            *upper
+                .iter()
+                .find(|&&u| mesh.nodes()[u] == mesh.nodes()[n])
+                .unwrap()
+        };
+        let nodes = std::array::from_fn(|a| if a < 8 { face[a] } else { above(face[a - 8]) });
+        let rule = InterfaceRule::Gauss3;
+        let element = Interface16::new(nodes, &coords, [1.0, 0.0, 0.0], rule, law).unwrap();
+        elements.push(Box::new(element) as Box<dyn Element>);
+    }
+    Model::new(mesh, elements)
+}
+
+/// Grid lines: 5 mm outside, 1 mm between `from` and `to`.
+fn graded(from: f64, to: f64, end: f64) -> Vec<f64> {
+    let mut x = lines(0.0, from, (from / 5.0).ceil() as usize);
+    x.extend(
+        lines(from, to, (to - from).round() as usize)
+            .into_iter()
+            .skip(1),
+    );
+    x.extend(
+        lines(to, end, ((end - to) / 5.0).ceil() as usize)
+            .into_iter()
+            .skip(1),
+    );
+    x
+}
+
+/// Displacement (mm) and load (N) of every step.
+fn drive(model: &Model, conditions: Conditions, step: f64, end: f64) -> Vec<[f64; 2]> {
+    let control = StepControl {
+        criterion: 1e-4,
+        shortest: step / 1024.0,
+        ..StepControl::new(step, end)
+    };
+    let mut path = Vec::new();
+    let mut driver = SecantAnderson::default();
+    let record = |view: &StepView<'_>| path.push([view.lambda, view.load]);
+    run(model, conditions, &control, &mut driver, |_| {}, record).unwrap();
+    path
+}
+
+/// Compares the load of every step with a displacement in `range` with the curve; at least `least` steps lie there.
+fn compare(path: &[[f64; 2]], range: [f64; 2], least: usize, curve: impl Fn(f64) -> f64) {
+    let inside = |p: &&[f64; 2]| p[0] >= range[0] && p[0] <= range[1];
+    let inside: Vec<_> = path.iter().filter(inside).collect();
+    assert!(inside.len() >= least, "{inside:?}");
+    for [w, load] in inside {
+        let exact = curve(*w);
+        assert!((load / exact - 1.0).abs() < 0.012, "{w}: {load}, {exact}");
+    }
+}
+
+/// Load of the first of the formulas at the displacement of the second, a between `low` and `high` (mm).
+fn beam_theory(w: f64, low: f64, high: f64, formulas: impl Fn(f64) -> [f64; 2]) -> f64 {
+    let (mut low, mut high) = (low, high);
+    for _ in 0..60 {
+        let a = 0.5 * (low + high);
+        if formulas(a)[1] < w {
+            low = a;
+        } else {
+            high = a;
+        }
+    }
+    formulas(low)[0]
+}
+
+/// Load and displacement of the double cantilever beam at a crack length (mm).
+fn dcb(a: f64) -> [f64; 2] {
+    let load = (ENERGY * B * B * YOUNG * H.powi(3) / 12.0).sqrt() / a;
+    [load, 8.0 * load * a.powi(3) / (YOUNG * B * H.powi(3))]
+}
+
+/// Load and displacement of the end-notched flexure specimen.
+fn enf(a: f64) -> [f64; 2] {
+    let load = 4.0 * B / (3.0 * a) * (ENERGY * YOUNG * H.powi(3)).sqrt();
+    let give = (2.0 * HALF_SPAN.powi(3) + 3.0 * a.powi(3)) / (8.0 * B * H.powi(3) * YOUNG);
+    [load, load * give]
+}
+
+#[test]
+fn formulas() {
+    for (found, target) in [
+        (dcb(30.0), [64.807, 1.7282]),
+        (dcb(40.0), [48.606, 3.0724]),
+        (enf(30.0), [299.3, 1.5290]),
+        (enf(34.67), [259.0, 1.4990]),
+        (enf(50.0), [179.6, 1.7323]),
+    ] {
+        assert!(
+            found
+                .iter()
+                .zip(target)
+                .all(|(f, t)| (f / t - 1.0).abs() < 3e-4)
+        );
+    }
+}
+
+/// Target: the load over displacement of beam theory while the crack grows from 34 to 39 mm, within 1.2 %.
+#[test]
+fn double_cantilever_beam() {
+    let x = graded(30.0, 45.0, 80.0);
+    let model = arms(&x, |x| (x > 30.0).then(delamination));
+    let mut conditions = Conditions::new(&model);
+    hold(&model, &mut conditions, &[Dof::Uy], |_| true).unwrap();
+    hold(&model, &mut conditions, &[Dof::Ux, Dof::Uz], |x| {
+        x[0] == 80.0
+    })
+    .unwrap();
+    for (z, share) in [(-0.5 * H, -0.5), (0.5 * H, 0.5)] {
+        for node in nodes_where(model.mesh(), |x| x[0] == 0.0 && x[2] == z) {
+            conditions.prescribe(&model, node, Dof::Uz, share).unwrap();
+        }
+    }
+    let path = drive(&model, conditions, 0.1, 2.9);
+    compare(&path, [2.25, 2.9], 6, |w| beam_theory(w, 30.0, 50.0, dcb));
+}
+
+/// The faces of the notch slide on one another. Target: the load over displacement of beam theory while the crack grows from
+/// 41 to 46 mm, within 1.2 %.
+#[test]
+fn end_notched_flexure() {
+    let notch = 38.0;
+    let model = arms(&graded(notch, 52.0, 2.0 * HALF_SPAN), |x| {
+        Some(if x > notch { delamination() } else { slides() })
+    });
+    let mut conditions = Conditions::new(&model);
+    hold(&model, &mut conditions, &[Dof::Uy], |_| true).unwrap();
+    let [left, right] = [0.0, 2.0 * HALF_SPAN];
+    hold(&model, &mut conditions, &[Dof::Uz], |x| {
+        (x[0] == left || x[0] == right) && x[2] == -H
+    })
+    .unwrap();
+    hold(&model, &mut conditions, &[Dof::Ux], |x| {
+        x[0] == right && x[2] == -H
+    })
+    .unwrap();
+    for node in nodes_where(model.mesh(), |x| x[0] == HALF_SPAN && x[2] == H) {
+        conditions.prescribe(&model, node, Dof::Uz, -1.0).unwrap();
+    }
+    let path = drive(&model, conditions, 0.05, 1.63);
+    compare(&path, [1.55, 1.63], 3, |w| beam_theory(w, 34.67, 60.0, enf));
+}
