@@ -76,16 +76,20 @@ pub enum RunError {
 
 impl RunError {
     /// How the program ends because of it.
-    pub const fn exit(&self) -> Exit {
+    pub fn exit(&self) -> Exit {
         match self {
-            Self::Build { .. } => Exit::BadInput,
+            Self::Build { reason, .. } => match **reason {
+                BuildError::TooFewElements { .. } => Exit::Usage,
+                _ => Exit::BadInput,
+            },
             Self::Output(_) => Exit::File,
             Self::Threads(_) | Self::Solver { .. } | Self::Model(_) => Exit::StoppedEarly,
         }
     }
 }
 
-/// Runs the specimens one after the other. All models are built before the first one runs.
+/// Runs the specimens one after the other. All models are built and all folders tried before the first one
+/// runs.
 ///
 /// # Errors
 ///
@@ -97,12 +101,14 @@ pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, Run
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()?;
-    if let [_, _, ..] = specimens {
-        for specimen in specimens {
-            build(specimen, &settings)?;
-        }
+    for specimen in specimens {
+        build(specimen, &settings)?;
     }
     output::prepare(&options.output).map_err(ResultsError::from)?;
+    let folders = specimens.iter().map(|s| options.output.join(&s.name));
+    for folder in folders.filter(|folder| folder.exists()) {
+        output::prepare(&folder).map_err(ResultsError::from)?;
+    }
     let mut exit = Exit::Done;
     for specimen in specimens {
         let one = pool.install(|| run(specimen, options, &settings, &interrupt))?;
@@ -182,7 +188,11 @@ fn run(
     )?;
     let outcome = match analyse(&beam, &stepping, driver.as_mut(), &mut recording) {
         Ok(outcome) => outcome,
-        Err(_) if interrupt.is_set() => return Ok(Exit::Interrupted),
+        Err(_) if interrupt.is_set() => {
+            let kept = kept("stopped by the user", Exit::Interrupted, &folder);
+            print_result(&format!("{:<8}  {kept}", specimen.name));
+            return Ok(Exit::Interrupted);
+        }
         Err(error) => {
             return Err(RunError::Solver {
                 specimen: specimen.name.clone(),
@@ -190,7 +200,8 @@ fn run(
             });
         }
     };
-    let states: Vec<_> = outcome.peak.iter().chain([&outcome.last]).collect();
+    let peak = outcome.peak.iter().filter(|peak| **peak != outcome.last);
+    let states: Vec<_> = peak.chain([&outcome.last]).collect();
     let mut wall = WallTime {
         output: recording.finish(&states)?.as_secs_f64(),
         ..WallTime::default()
@@ -202,12 +213,17 @@ fn run(
         wall.add(times);
     }
     let (stop_reason, exit) = end(&outcome, interrupt);
-    let Some(capacity) = Capacity::of(&outcome.path) else {
-        print_result(&format!("{:<8}  {stop_reason}", specimen.name));
-        return Ok(exit);
-    };
-    let verdict = Verdict::of(&outcome.path, &capacity);
-    let Some(figures) = Figures::of(&outcome.path, &capacity, &verdict) else {
+    let kept = kept(&stop_reason, exit, &folder);
+    let figures = Capacity::of(&outcome.path).and_then(|capacity| {
+        let verdict = Verdict::of(&outcome.path, &capacity);
+        Some((
+            Figures::of(&outcome.path, &capacity, &verdict)?,
+            capacity,
+            verdict,
+        ))
+    });
+    let Some((figures, capacity, verdict)) = figures else {
+        print_result(&format!("{:<8}  {kept}", specimen.name));
         return Ok(exit);
     };
     let layout = evidence::layout(specimen, &beam);
@@ -240,7 +256,7 @@ fn run(
     summary.write(&folder)?;
     print_result(&match exit {
         Exit::Done => summary.line(),
-        _ => format!("{}  stopped: {}", summary.line(), summary.stop_reason),
+        _ => format!("{}  {kept}", summary.line()),
     });
     Ok(exit)
 }
@@ -253,6 +269,16 @@ fn end(outcome: &Outcome, interrupt: &Interrupt) -> (String, Exit) {
         Err(error @ SolverError::Output(_)) => (error.to_string(), Exit::File),
         Err(error) => (error.to_string(), Exit::StoppedEarly),
     }
+}
+
+/// What is said of a run that does not reach its end.
+fn kept(reason: &str, exit: Exit, folder: &Folder) -> String {
+    let reason = match exit {
+        Exit::Interrupted => reason.to_owned(),
+        _ => format!("stopped: {reason}"),
+    };
+    let path = folder.path().display();
+    format!("{reason}; the results up to the last accepted step are in {path}")
 }
 
 fn setup(
