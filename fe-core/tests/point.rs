@@ -109,7 +109,7 @@ fn impossible_programs_are_refused_before_anything_runs() {
         ),
         (
             Segment::new(vec![Strain(0.0)], 0),
-            "segment 2 has steps = 0",
+            "segment 2 has steps = 0, outside [1, 1000000]",
         ),
         (
             Segment::new(vec![Stress(f64::NAN)], 1),

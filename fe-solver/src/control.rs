@@ -70,6 +70,7 @@ impl StepControl {
     fn check(&self) -> Result<(), SolverError> {
         for (what, value) in [
             ("first step", self.initial),
+            ("longest step", self.longest),
             ("shortest step", self.shortest),
             ("end", self.end),
             ("criterion", self.criterion),
@@ -242,5 +243,57 @@ impl StepControl {
             stage,
         };
         Ok(recorder.step(&view)?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Protects the step control from settings with which it would never end.
+    use super::*;
+
+    #[test]
+    fn lengths_that_lead_nowhere_are_refused_by_name() {
+        let good = StepControl::new(0.1, 1.0);
+        assert!(good.check().is_ok());
+        for (what, bad) in [
+            (
+                "first step",
+                StepControl {
+                    initial: 0.0,
+                    ..good
+                },
+            ),
+            (
+                "longest step",
+                StepControl {
+                    longest: 0.0,
+                    ..good
+                },
+            ),
+            (
+                "longest step",
+                StepControl {
+                    longest: f64::NAN,
+                    ..good
+                },
+            ),
+            (
+                "shortest step",
+                StepControl {
+                    shortest: -1.0,
+                    ..good
+                },
+            ),
+            (
+                "end",
+                StepControl {
+                    end: f64::INFINITY,
+                    ..good
+                },
+            ),
+        ] {
+            let message = bad.check().unwrap_err().to_string();
+            assert!(message.contains(what), "{message}");
+        }
     }
 }

@@ -14,7 +14,8 @@ use crate::stage::Stage;
 pub enum Refactor {
     /// In every iteration: full Newton-Raphson.
     Always,
-    /// When an iteration has reduced the residual by less than this factor: modified Newton-Raphson.
+    /// After the first iteration of a step, and when a later one has reduced the residual by less than this
+    /// factor: modified Newton-Raphson.
     Below(f64),
 }
 
@@ -46,6 +47,11 @@ impl Default for NewtonSettings {
 ///
 /// The line search halves the correction until the residual norm falls. If no tried factor reduces it the
 /// attempt ends: a worse residual is never accepted.
+///
+/// Latching: after every correction that does not yet converge, laws latch what the trial state shows (the
+/// axes of a new crack) and keep it for the rest of the attempt. The next tangent is evaluated with it; while
+/// modified Newton-Raphson keeps its factor, so is the next residual only. A correction that converges latches
+/// nothing: its cracks are fixed when the step is committed. Rolling back forgets what an attempt latched.
 #[derive(Debug)]
 pub struct NewtonRaphson {
     settings: NewtonSettings,

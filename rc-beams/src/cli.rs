@@ -122,7 +122,6 @@ fn run_beams(beams: &[String], options: &RunOptions) -> Result<Exit, Shown> {
         eprintln!("nothing was run");
         shown
     })?;
-    output::prepare(&options.output).map_err(|error| show(Exit::File, error))?;
     run::run_all(&specimens, options).map_err(|error| show(error.exit(), error))
 }
 

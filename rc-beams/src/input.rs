@@ -10,6 +10,8 @@ use crate::ronfile::RonError;
 use crate::spec::{BUILTIN, Specimen, read};
 use crate::suggest::nearest;
 
+const BYTE_ORDER_MARK: char = '\u{feff}';
+
 /// What is wrong with a beam named on the command line.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[non_exhaustive]
@@ -43,6 +45,20 @@ pub enum InputError {
         /// Why.
         source: io::Error,
     },
+    /// A file that holds no text.
+    #[error("{}, line {line}: byte {byte} of the file is not UTF-8 text", path.display())]
+    #[diagnostic(
+        code(rc_beams::text),
+        help("name a text file; if it is one, save it with the encoding UTF-8")
+    )]
+    NotText {
+        /// The file.
+        path: PathBuf,
+        /// Line of the first byte that is not text, counted from 1.
+        line: usize,
+        /// That byte, counted from 1.
+        byte: usize,
+    },
     /// A file whose content is wrong.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -55,7 +71,7 @@ impl InputError {
         match self {
             Self::UnknownBeam { .. } | Self::Twice { .. } => Exit::Usage,
             Self::File { .. } => Exit::File,
-            Self::Content(_) => Exit::BadInput,
+            Self::NotText { .. } | Self::Content(_) => Exit::BadInput,
         }
     }
 }
@@ -114,16 +130,29 @@ fn text(name: &str) -> Result<String, InputError> {
     }
 }
 
-/// The text of a file.
+/// The text of a file, without the byte order mark that some editors put before it.
 ///
 /// # Errors
 ///
-/// [`InputError::File`].
+/// [`InputError::File`] and [`InputError::NotText`].
 pub(crate) fn read_file(path: &Path) -> Result<String, InputError> {
-    fs::read_to_string(path).map_err(|source| InputError::File {
+    let bytes = fs::read(path).map_err(|source| InputError::File {
         path: path.into(),
         source,
-    })
+    })?;
+    let mut text = String::from_utf8(bytes).map_err(|error| {
+        let good = error.utf8_error().valid_up_to();
+        let lines = error.as_bytes().iter().take(good).filter(|b| **b == b'\n');
+        InputError::NotText {
+            path: path.into(),
+            line: 1 + lines.count(),
+            byte: 1 + good,
+        }
+    })?;
+    if text.starts_with(BYTE_ORDER_MARK) {
+        text.remove(0);
+    }
+    Ok(text)
 }
 
 fn unknown(name: &str) -> InputError {

@@ -1,5 +1,7 @@
 //! Options of a run; as flags of the command line they carry the texts of its help.
 
+use std::fmt::Display;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -13,7 +15,7 @@ pub struct RunOptions {
     #[arg(long, value_enum, default_value_t)]
     pub preset: Preset,
 
-    /// Elements along, up and across the beam, for instance 60x4x1
+    /// Elements along, up and across the half beam; without it, 60x4x1
     #[arg(long, value_name = "NXxNYxNZ")]
     pub mesh: Option<MeshSize>,
 
@@ -46,7 +48,7 @@ pub struct RunOptions {
     pub driver: Driver,
 
     /// Steps to the final deflection at the initial step size, which then adapts
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = steps, allow_negative_numbers = true)]
     pub steps: Option<u32>,
 
     /// Final deflection imposed on the loads (mm); without it, that of the specimen
@@ -54,7 +56,7 @@ pub struct RunOptions {
     pub until_mm: Option<f64>,
 
     /// Threads; without it, one per core
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub threads: Option<u16>,
 
     /// Folder of the results, made if missing
@@ -144,7 +146,7 @@ pub enum Driver {
     Secant,
     /// Newton-Raphson, tangent renewed at every iteration
     Newton,
-    /// Newton-Raphson, tangent renewed at every step
+    /// Newton-Raphson, tangent kept while it serves
     ModifiedNewton,
 }
 
@@ -218,6 +220,25 @@ impl FromStr for MeshSize {
     }
 }
 
+/// A number of steps of the command line.
+fn steps(text: &str) -> Result<u32, String> {
+    count(text, 1..=1_000_000)
+}
+
+/// A number of threads of the command line.
+fn threads(text: &str) -> Result<u16, String> {
+    count(text, 1..=1024)
+}
+
+fn count<N>(text: &str, range: RangeInclusive<N>) -> Result<N, String>
+where
+    N: FromStr + PartialOrd + Display,
+{
+    let count = text.parse().ok().filter(|count| range.contains(count));
+    let (low, high) = (range.start(), range.end());
+    count.ok_or_else(|| format!("allowed: whole numbers from {low} to {high}"))
+}
+
 /// A deflection of the command line (mm).
 fn deflection(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| {
@@ -226,7 +247,7 @@ fn deflection(text: &str) -> Result<f64, String> {
         } else {
             ""
         };
-        format!("not a number{hint}")
+        format!("not a number{hint}; allowed: 0.1 to 500 mm")
     })?;
     crate::spec::Deflection::try_from(value).map(f64::from)
 }

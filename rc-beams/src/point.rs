@@ -24,7 +24,7 @@ pub fn run(path: &Path) -> Result<PointRun, InputError> {
     let run = case.run().map_err(|error| refused(field(&error), &error))?;
     match run.result {
         Err(
-            ref error @ (PointError::NoSteps { segment } | PointError::NotFinite { segment, .. }),
+            ref error @ (PointError::Steps { segment, .. } | PointError::NotFinite { segment, .. }),
         ) => Err(refused(program(segment), error)),
         _ => Ok(run),
     }

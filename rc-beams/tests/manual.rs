@@ -1,6 +1,8 @@
-//! Protects the manual: its table of the specimen file names fields that exist, with the ranges that the
-//! reader enforces.
+//! Protects the manual: its tables name the flags that exist with their defaults, and the fields of the
+//! specimen file with the ranges that the reader enforces.
 
+use clap::Args;
+use rc_beams::options::RunOptions;
 use rc_beams::spec::read;
 
 const MANUAL: &str = include_str!("../README.md");
@@ -60,6 +62,23 @@ fn ranges_are_those_of_the_reader() {
         count += 1;
     }
     assert!(count > 40, "{count} rows");
+}
+
+/// Defaults that the program chooses when a flag is not given are written without a value in its help.
+#[test]
+fn flags_and_their_defaults_are_those_of_the_program() {
+    let command = RunOptions::augment_args(clap::Command::new("run"));
+    for flag in command.get_arguments() {
+        let long = flag.get_long().unwrap();
+        let row = MANUAL
+            .lines()
+            .find(|line| line.starts_with("| `-") && line.contains(&format!("`--{long}")))
+            .unwrap_or_else(|| panic!("the manual lacks --{long}"));
+        for default in flag.get_default_values() {
+            let default = format!("| `{}` |", default.to_str().unwrap());
+            assert!(row.contains(&default), "{row}: the default is {default}");
+        }
+    }
 }
 
 #[test]

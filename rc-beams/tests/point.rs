@@ -55,7 +55,22 @@ fn mistakes_in_a_case_are_named_with_their_place() {
             "\"eps_xx\": -0.01",
             "strain has no component \"eps_xx\"",
         ),
+        (
+            "steps: 100",
+            "steps: -100",
+            "steps: a negative or far too large number; allowed: whole numbers from 0 on",
+        ),
         ("steps: 100", "steps: 0", "segment 2 has steps = 0"),
+        (
+            "steps: 100",
+            "steps: 5000000000",
+            "segment 2 has steps = 5000000000, outside [1, 1000000]",
+        ),
+        (
+            "{\"eps\": -0.01}",
+            "{\"eps\": -0.01, \"eps\": 0.01}",
+            "the component `eps` stands twice",
+        ),
         ("\"eps\": -0.01", "\"eps\": NaN", "the target of eps is NaN"),
     ] {
         assert_eq!(BAR.matches(from).count(), 1, "{from}");

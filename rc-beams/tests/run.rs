@@ -102,7 +102,7 @@ fn an_interrupted_run_keeps_what_it_has() {
     for signal in ["-INT", "-TERM"] {
         let folder = tempfile::tempdir().unwrap();
         let mut child = command(folder.path(), &["A-SO3-1", "--mesh", "32x2x1"])
-            .stdout(Stdio::null())
+            .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
@@ -119,12 +119,18 @@ fn an_interrupted_run_keeps_what_it_has() {
                 .unwrap()
                 .success()
         );
-        assert_eq!(child.wait().unwrap().code(), Some(130), "{signal}");
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(130), "{signal}");
+        let line = String::from_utf8(output.stdout).unwrap();
+        let kept = "stopped by the user; the results up to the last accepted step are in";
+        assert!(line.contains(kept), "{line}");
         let text = fs::read_to_string(&history).unwrap();
         let columns = text.lines().next().unwrap().split(',').count();
         assert!(text.ends_with('\n') && text.lines().all(|l| l.split(',').count() == columns));
         let fields = fs::read_to_string(folder.path().join("A-SO3-1/fields.pvd")).unwrap();
         assert!(fields.contains("fields_0001.vtu") && fields.contains("</VTKFile>"));
+        // The peak is the last step: its fields are written once.
+        assert!(!fields.contains("fields_0002.vtu"));
         assert_eq!(summary(folder.path())["stop_reason"], "stopped by the user");
     }
 }

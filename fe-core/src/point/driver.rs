@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::error::PointError;
 use super::history::{PointHistory, PointRow};
-use super::{Control, Segment};
+use super::{Control, MAX_STEPS, Segment};
 use crate::kinematics::Kinematics;
 use crate::material::{Material, MaterialError, Operator, PointContext, Response};
 
@@ -314,8 +314,11 @@ fn check<K: Kinematics>(segment: usize, ramp: &Segment) -> Result<(), PointError
             labels: K::STRAIN_LABELS.join(", "),
         });
     }
-    if ramp.steps == 0 {
-        return Err(PointError::NoSteps { segment });
+    if !(1..=MAX_STEPS).contains(&ramp.steps) {
+        return Err(PointError::Steps {
+            segment,
+            steps: ramp.steps,
+        });
     }
     for (i, control) in ramp.controls.iter().enumerate() {
         let value = control.target();

@@ -1,5 +1,6 @@
 //! What can go wrong at a single point.
 
+use super::MAX_STEPS;
 use crate::material::MaterialError;
 
 /// Why a program could not be finished; segments and steps are counted from 1.
@@ -24,11 +25,15 @@ pub enum PointError {
         /// Their names.
         labels: String,
     },
-    /// A segment has no steps.
-    #[error("segment {segment} has steps = 0, outside [1, inf); give at least one step")]
-    NoSteps {
+    /// A segment has no steps, or more than a history can hold.
+    #[error(
+        "segment {segment} has steps = {steps}, outside [1, {MAX_STEPS}]; a few hundred resolve most paths"
+    )]
+    Steps {
         /// Segment.
         segment: usize,
+        /// Steps given.
+        steps: usize,
     },
     /// A target is NaN or infinite.
     #[error("segment {segment}: the target of {component} is {value}, not a finite number")]

@@ -47,6 +47,9 @@ pub use driver::{PointDriver, PointSettings};
 pub use error::PointError;
 pub use history::{PointHistory, PointRow};
 
+/// Largest number of steps of a segment: the history holds them all.
+pub const MAX_STEPS: usize = 1_000_000;
+
 /// What is prescribed in one component at the end of a segment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Control {
@@ -69,7 +72,7 @@ impl Control {
 pub struct Segment {
     /// What is prescribed, one entry per component of the law's kinematics.
     pub controls: Vec<Control>,
-    /// Steps of the ramp.
+    /// Steps of the ramp, 1 to [`MAX_STEPS`].
     pub steps: usize,
 }
 

@@ -8,7 +8,9 @@ const LONGEST_LEG: f64 = 8.0;
 /// A polyline through random turning points inside the box |x_i| <= a_i, walked in random steps.
 ///
 /// A turning point is drawn afresh in the box (some components nearly held), or lies on the way back to the
-/// origin (unloading), or on the other side of it (reversal).
+/// origin (unloading), or on the other side of it (reversal). From the origin itself the last two lead
+/// nowhere: two paths in five begin with a leg of no length, which shows whether a law bears repeated updates
+/// of the virgin state.
 #[derive(Debug)]
 pub(super) struct RandomPath {
     random: Random,

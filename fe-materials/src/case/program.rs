@@ -1,10 +1,12 @@
 //! The program of a case.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use fe_core::kinematics::Kinematics;
 use fe_core::point::{Control, Segment};
-use serde::Deserialize;
+use serde::de::{Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 
 use super::CaseError;
 
@@ -13,10 +15,10 @@ use super::CaseError;
 #[serde(deny_unknown_fields)]
 pub struct SegmentCase {
     /// Strains (-) by name.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "components")]
     pub strain: BTreeMap<String, f64>,
     /// Stresses (MPa) by name; components that are not named at all go to zero stress.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "components")]
     pub stress_mpa: BTreeMap<String, f64>,
     /// Steps of the ramp.
     pub steps: usize,
@@ -57,4 +59,32 @@ impl SegmentCase {
         let controls = (0..K::LEN).map(control).collect::<Result<_, _>>()?;
         Ok(Segment::new(controls, self.steps))
     }
+}
+
+/// Numbers by name; a name that stands twice is refused, which a map alone would overwrite.
+fn components<'de, D: Deserializer<'de>>(input: D) -> Result<BTreeMap<String, f64>, D::Error> {
+    struct Components;
+
+    impl<'de> Visitor<'de> for Components {
+        type Value = BTreeMap<String, f64>;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("components by name, such as {\"eps_xx\": 0.001}")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+            let mut components = BTreeMap::new();
+            while let Some((name, value)) = map.next_entry::<String, f64>()? {
+                if components.contains_key(&name) {
+                    let twice =
+                        format!("the component `{name}` stands twice; remove one of the two");
+                    return Err(A::Error::custom(twice));
+                }
+                components.insert(name, value);
+            }
+            Ok(components)
+        }
+    }
+
+    input.deserialize_map(Components)
 }

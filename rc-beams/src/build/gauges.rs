@@ -189,7 +189,10 @@ pub(super) fn gauges(
     let (from, to) = (span.x_from_mm.get(), span.x_to_mm.get());
     let middle = 0.5 * specimen.beam.height_mm.get();
     let mut places: Vec<f64> = specimen.loads.iter().map(|l| l.x_mm.get()).collect();
-    places.push(0.5 * (from + to));
+    let centre = 0.5 * (from + to);
+    if !places.contains(&centre) {
+        places.push(centre);
+    }
     let mut gauges = Vec::new();
     for bar in bars {
         let [a, b] = bar.ends;

@@ -9,6 +9,9 @@ use ron::error::{Error, Position, SpannedError};
 use super::places::Places;
 use crate::suggest::nearest;
 
+/// Longest line (bytes) that is shown; no file written by hand has a longer one.
+const LONGEST_LINE: usize = 2000;
+
 /// An error of a file; shows the line it stands in.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[error("{message}")]
@@ -18,8 +21,9 @@ pub struct RonError {
     label: String,
     #[help]
     help: Option<String>,
+    /// None where its lines are too long to be shown.
     #[source_code]
-    file: Arc<NamedSource<String>>,
+    file: Option<Arc<NamedSource<String>>>,
     #[label("{label}")]
     place: SourceSpan,
 }
@@ -30,8 +34,12 @@ impl RonError {
         let text = file.inner();
         let place = offset(text, error.span.start)..offset(text, error.span.end);
         let parent = path.trim_end_matches('?');
-        let (field, place, words) = mistyped_number(text, place.start)
-            .unwrap_or_else(|| ("", place, Words::of(&error.code)));
+        let (field, place, words) = if text.trim().is_empty() {
+            ("", 0..0, Words::empty())
+        } else {
+            mistyped_number(text, place.start)
+                .unwrap_or_else(|| ("", place, Words::of(&error.code)))
+        };
         let field = if parent == path {
             path.into()
         } else {
@@ -65,11 +73,17 @@ impl RonError {
         } else {
             format!("{field}: {what}")
         };
+        let readable = file.inner().lines().all(|line| line.len() <= LONGEST_LINE);
+        let message = if readable {
+            message
+        } else {
+            format!("{}: {message}", address(file, place.start))
+        };
         Self {
             message,
             label,
             help,
-            file: Arc::clone(file),
+            file: readable.then(|| Arc::clone(file)),
             place: place.into(),
         }
     }
@@ -89,6 +103,12 @@ impl Words {
             label: label.into(),
             help,
         }
+    }
+
+    /// The words for a file without content.
+    fn empty() -> Self {
+        let help = "start from a copy of one of the samples that come with the program";
+        Self::new("the file is empty", "here", Some(help.into()))
     }
 
     /// The words for an error of the parser.
@@ -111,6 +131,26 @@ impl Words {
                 Some("remove one of the two".into()),
             ),
             Error::Message(what) => Self::new(what, "this value", None),
+            Error::ExpectedFloat | Error::ExpectedInteger => Self::new(
+                "a number is expected",
+                "here",
+                Some("write digits with a decimal point, without quotes".into()),
+            ),
+            Error::IntegerOutOfBounds => Self::new(
+                "a negative or far too large number; allowed: whole numbers from 0 on",
+                "here",
+                None,
+            ),
+            Error::TrailingCharacters => Self::new(
+                "text behind the closing bracket",
+                "here",
+                Some("a file holds one value in brackets: remove what follows it".into()),
+            ),
+            Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) => Self::new(
+                "a group of fields in brackets is expected",
+                "here",
+                Some("write `(field: value, ...)`".into()),
+            ),
             Error::Eof => Self::new(
                 "the text ends too early",
                 "here",
@@ -163,6 +203,14 @@ fn mistyped_number(text: &str, at: usize) -> Option<(&str, Range<usize>, Words)>
         .rsplit(|c: char| !c.is_alphanumeric() && c != '_')
         .next()?;
     Some((name, lead.len()..at + tail.len(), words))
+}
+
+/// Name of the file with line and column of a byte, counted from 1.
+fn address(file: &NamedSource<String>, at: usize) -> String {
+    let before = file.inner().get(..at).unwrap_or_default();
+    let line = 1 + before.matches('\n').count();
+    let column = 1 + before.chars().rev().take_while(|c| *c != '\n').count();
+    format!("{}:{line}:{column}", file.name())
 }
 
 /// Byte offset of a line and column, both counted from 1, columns in characters.

@@ -84,28 +84,34 @@ pub enum RunError {
 
 impl RunError {
     /// How the program ends because of it.
-    pub const fn exit(&self) -> Exit {
+    pub fn exit(&self) -> Exit {
         match self {
-            Self::Build { .. } => Exit::BadInput,
+            Self::Build { reason, .. } => match **reason {
+                BuildError::TooFewElements { .. } => Exit::Usage,
+                _ => Exit::BadInput,
+            },
             Self::Output(_) => Exit::File,
             Self::Threads(_) | Self::Solver { .. } | Self::Model(_) => Exit::StoppedEarly,
         }
     }
 }
 
-/// Runs the specimens, as many at once as there are threads. All models are built before the first one runs.
+/// Runs the specimens, as many at once as there are threads. All models are built and all folders tried before the
+/// first one runs.
 ///
 /// # Errors
 ///
 /// [`RunError`]; the results of the beams before are kept.
 pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, RunError> {
     let interrupt = Interrupt::install()?;
-    if let [_, _, ..] = specimens {
-        for specimen in specimens {
-            build(specimen, &settings(options, specimen))?;
-        }
+    for specimen in specimens {
+        build(specimen, &settings(options, specimen))?;
     }
     output::prepare(&options.output).map_err(ResultsError::from)?;
+    let folders = specimens.iter().map(|s| options.output.join(&s.name));
+    for folder in folders.filter(|folder| folder.exists()) {
+        output::prepare(&folder).map_err(ResultsError::from)?;
+    }
     let workers = queue::workers(specimens.len(), options.threads.map_or(0, usize::from))?;
     let board = Board::new();
     queue::run(&workers, specimens, |specimen, worker| {
@@ -204,7 +210,11 @@ fn run(
     );
     let outcome = match done {
         Ok(outcome) => outcome,
-        Err(_) if interrupt.is_set() => return Ok(Exit::Interrupted),
+        Err(_) if interrupt.is_set() => {
+            let kept = kept("stopped by the user", Exit::Interrupted, &folder);
+            board.print_result(&format!("{:<8}  {kept}", specimen.name));
+            return Ok(Exit::Interrupted);
+        }
         Err(error) => {
             return Err(RunError::Solver {
                 specimen: specimen.name.clone(),
@@ -213,7 +223,8 @@ fn run(
         }
     };
     let beam = outcome.strengthened.as_ref().unwrap_or(&beam);
-    let states: Vec<_> = outcome.peak.iter().chain([&outcome.last]).collect();
+    let peak = outcome.peak.iter().filter(|peak| **peak != outcome.last);
+    let states: Vec<_> = peak.chain([&outcome.last]).collect();
     let (watch, writing) = recording.finish(&beam.model, &states)?;
     let mut wall = WallTime {
         output: writing.as_secs_f64(),
@@ -226,12 +237,17 @@ fn run(
         wall.add(times);
     }
     let (stop_reason, exit) = end(&outcome, interrupt);
-    let Some(capacity) = Capacity::of(&outcome.path) else {
-        board.print_result(&format!("{:<8}  {stop_reason}", specimen.name));
-        return Ok(exit);
-    };
-    let verdict = Verdict::of(&outcome.path, &capacity);
-    let Some(figures) = Figures::of(&outcome.path, &capacity, &verdict) else {
+    let kept = kept(&stop_reason, exit, &folder);
+    let figures = Capacity::of(&outcome.path).and_then(|capacity| {
+        let verdict = Verdict::of(&outcome.path, &capacity);
+        Some((
+            Figures::of(&outcome.path, &capacity, &verdict)?,
+            capacity,
+            verdict,
+        ))
+    });
+    let Some((figures, capacity, verdict)) = figures else {
+        board.print_result(&format!("{:<8}  {kept}", specimen.name));
         return Ok(exit);
     };
     let at_peak = outcome.peak.as_ref().unwrap_or(&outcome.last);
@@ -289,7 +305,7 @@ fn run(
     summary.write(&folder)?;
     board.print_result(&match exit {
         Exit::Done => summary.line(),
-        _ => format!("{}  stopped: {}", summary.line(), summary.stop_reason),
+        _ => format!("{}  {kept}", summary.line()),
     });
     Ok(exit)
 }
@@ -324,6 +340,16 @@ fn end(outcome: &Outcome, interrupt: &Interrupt) -> (String, Exit) {
         }
         Err(error) => (error.to_string(), Exit::StoppedEarly),
     }
+}
+
+/// What is said of a run that does not reach its end.
+fn kept(reason: &str, exit: Exit, folder: &Folder) -> String {
+    let reason = match exit {
+        Exit::Interrupted => reason.to_owned(),
+        _ => format!("stopped: {reason}"),
+    };
+    let path = folder.path().display();
+    format!("{reason}; the results up to the last accepted step are in {path}")
 }
 
 fn setup(

@@ -184,3 +184,41 @@ quantities! {
     /// Load (kN).
     Load: KN in 1.0 to 10000.0;
 }
+
+/// Number of bars at one place.
+///
+/// Allowed: 1 to 100.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "i64", into = "i64")]
+pub struct BarCount(u8);
+
+impl BarCount {
+    const MAX: u8 = 100;
+
+    /// The number.
+    pub const fn get(self) -> u8 {
+        self.0
+    }
+}
+
+impl TryFrom<i64> for BarCount {
+    type Error = String;
+
+    fn try_from(value: i64) -> Result<Self, String> {
+        let count = u8::try_from(value)
+            .ok()
+            .filter(|n| (1..=Self::MAX).contains(n));
+        count.map(Self).ok_or_else(|| {
+            format!(
+                "{value} is out of range; allowed: whole numbers from 1 to {}",
+                Self::MAX
+            )
+        })
+    }
+}
+
+impl From<BarCount> for i64 {
+    fn from(count: BarCount) -> i64 {
+        count.0.into()
+    }
+}

@@ -1,11 +1,10 @@
 //! Reinforcement of a specimen: longitudinal bars and stirrups.
 
-use std::num::NonZeroU32;
-
 use serde::{Deserialize, Serialize};
 
 use super::quantity::{
-    BarArea, BarDiameter, Coordinate, HardeningRatio, Spacing, SteelModulus, SteelStrength,
+    BarArea, BarCount, BarDiameter, Coordinate, HardeningRatio, Spacing, SteelModulus,
+    SteelStrength,
 };
 use super::specimen::Span;
 
@@ -39,7 +38,7 @@ pub struct Bar {
     /// Cross-section of one bar (mm2).
     pub area_mm2: BarArea,
     /// Number of bars in the half model at this place.
-    pub count_in_half: NonZeroU32,
+    pub count_in_half: BarCount,
     /// Source of diameter, cross-section and count.
     pub source: String,
     /// Steel.

@@ -280,6 +280,13 @@ const CASES: &[Case] = &[
             "allowed: 0 to 305 mm",
         ],
     ),
+    // Counts.
+    (
+        "y_mm: 51,",
+        "y_mm: \"51\",",
+        "",
+        &["bars[0].axis.y_mm: a number is expected"],
+    ),
     // Shape of the file.
     (
         "series: A,",
@@ -424,7 +431,17 @@ const COMMANDS: &[Arguments] = &[
     (
         &["run", "A-SO3-1", "--steps", "0"],
         2,
-        &["--steps", "0 is not in 1..=1000000"],
+        &["--steps", "allowed: whole numbers from 1 to 1000000"],
+    ),
+    (
+        &["run", "A-SO3-1", "--threads", "-1"],
+        2,
+        &["--threads", "allowed: whole numbers from 1 to 1024"],
+    ),
+    (
+        &["run", "A-SO3-1", "--mesh", "4x4x1"],
+        2,
+        &["too few", "--mesh"],
     ),
     (
         &["run", "A-SO3-1", "--law", "magic"],
@@ -517,4 +534,65 @@ fn the_beams_of_the_program_are_listed_and_pass_their_checks() {
     ] {
         assert_eq!(strengthening(beam), words, "{beam}");
     }
+}
+
+/// Bytes of a file, exit code, words of the message.
+#[test]
+fn files_that_are_no_specimens_are_refused_and_a_byte_order_mark_is_not() {
+    let long_line = format!("{{{}", "(".repeat(100_000));
+    let long_name = BEAM.replace(
+        "name: \"A-SO3-1\"",
+        &format!("name: \"{}\"", "a".repeat(65)),
+    );
+    let count = BEAM.replacen("count_in_half: 1", "count_in_half: 5000000000", 1);
+    let none = BEAM.replacen("count_in_half: 1", "count_in_half: 0", 1);
+    let twice = format!("{BEAM}{BEAM}");
+    let cases: [(&[u8], &str); 8] = [
+        (b"", "the file is empty"),
+        (b" \r\n\n", "the file is empty"),
+        (
+            b"(\n\"\xff",
+            "x.ron, line 2: byte 4 of the file is not UTF-8 text",
+        ),
+        (
+            long_line.as_bytes(),
+            "x.ron:1:1: a group of fields in brackets is expected",
+        ),
+        (long_name.as_bytes(), "allowed: 1 to 64 letters"),
+        (
+            count.as_bytes(),
+            "5000000000 is out of range; allowed: whole numbers from 1 to 100",
+        ),
+        (
+            none.as_bytes(),
+            "0 is out of range; allowed: whole numbers from 1 to 100",
+        ),
+        (twice.as_bytes(), "text behind the closing bracket"),
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    for (bytes, words) in cases {
+        fs::write(folder.path().join("x.ron"), bytes).unwrap();
+        let output = rc_beams(&["run", "x.ron"], folder.path());
+        let message = message(&output);
+        assert_eq!(output.status.code(), Some(3), "{message}");
+        assert!(
+            message.contains(words),
+            "{words:?} is missing in:\n{message}"
+        );
+        assert!(!folder.path().join("results").exists());
+    }
+    fs::write(folder.path().join("x.ron"), format!("{}{BEAM}", '\u{feff}')).unwrap();
+    let output = rc_beams(&["check", "x.ron"], folder.path());
+    assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+}
+
+/// A place of results that cannot be written, of the second beam: the first is not run either.
+#[test]
+fn all_folders_are_tried_before_the_first_run() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("results")).unwrap();
+    fs::write(folder.path().join("results/A-SO4-1"), "kept").unwrap();
+    let output = rc_beams(&["run", "A-SO3-1", "A-SO4-1"], folder.path());
+    assert_eq!(output.status.code(), Some(4), "{}", message(&output));
+    assert!(!folder.path().join("results/A-SO3-1").exists());
 }

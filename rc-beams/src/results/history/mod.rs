@@ -143,7 +143,7 @@ impl History {
         })
     }
 
-    /// Adds an iteration; step 0 is self weight.
+    /// Adds an iteration of the load stage.
     ///
     /// # Errors
     ///

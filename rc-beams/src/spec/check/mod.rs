@@ -14,6 +14,9 @@ const TOLERANCE: f64 = 1e-6;
 
 const ALONG: &str = "x is measured from the left end of the beam";
 
+/// Longest name of a specimen: it names a folder.
+const LONGEST_NAME: usize = 64;
+
 /// Something wrong with a specimen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
@@ -102,10 +105,13 @@ impl Checks<'_> {
     fn name(&mut self) {
         let name = &self.specimen.name;
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-        if name.is_empty() || name.starts_with('.') || !name.chars().all(plain) {
+        let short = (1..=LONGEST_NAME).contains(&name.len());
+        if !short || name.starts_with('.') || !name.chars().all(plain) {
             self.report(
                 "name",
-                format!("{name:?} cannot name a folder; allowed: letters, digits, - _ ."),
+                format!(
+                    "{name:?} cannot name a folder; allowed: 1 to {LONGEST_NAME} letters, digits, - _ ."
+                ),
                 "choose a short name, for instance \"A-SO3-1\"",
             );
         }

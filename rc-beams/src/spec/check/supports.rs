@@ -97,7 +97,7 @@ impl Checks<'_> {
             );
         }
         if self.specimen.loads.is_empty() {
-            self.report("loads", "loads: 0; allowed: at least 1", "add a load");
+            self.report("loads", "none is given; allowed: at least 1", "add a load");
         }
     }
 
