@@ -14,5 +14,6 @@ pub mod linear;
 pub mod newton;
 pub mod path;
 pub mod recorder;
+pub mod relaxation;
 pub mod secant;
 pub mod stage;

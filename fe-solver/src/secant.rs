@@ -6,6 +6,7 @@ use fe_core::material::Operator;
 use crate::anderson::Anderson;
 use crate::driver::{Attempt, Driver, IterationLog};
 use crate::error::SolverError;
+use crate::relaxation::{DynamicRelaxation, RelaxationSettings};
 use crate::stage::{Residual, Stage};
 
 /// Settings of [`SecantAnderson`].
@@ -20,13 +21,17 @@ pub struct SecantSettings {
     pub viscosity: f64,
     /// Iterations after which the operator is rebuilt at the current iterate; 0 keeps the first.
     pub rebuild_after: usize,
-    /// Viscous solves at a fixed load factor before a snap is given up.
+    /// Viscous solves at a fixed load factor before dynamic relaxation takes over.
     pub max_holds: usize,
-    /// Smallest relaxation a of such a solve before a snap is given up.
+    /// Iterations of these solves, likewise.
+    pub max_held_iterations: usize,
+    /// Smallest relaxation a of such a solve, likewise.
     pub min_relaxation: f64,
     /// Relative residual of such a solve over that of the inviscid law before it, where this is looser than the
     /// criterion.
     pub transit: f64,
+    /// Dynamic relaxation.
+    pub dynamic: RelaxationSettings,
 }
 
 impl Default for SecantSettings {
@@ -36,9 +41,11 @@ impl Default for SecantSettings {
             depth: 10,
             viscosity: 0.0,
             rebuild_after: 30,
-            max_holds: 150,
+            max_holds: 60,
+            max_held_iterations: 800,
             min_relaxation: 1e-4,
             transit: 0.1,
+            dynamic: RelaxationSettings::default(),
         }
     }
 }
@@ -50,7 +57,8 @@ impl Default for SecantSettings {
 /// one back-substitution each, no tangent, no line search. New cracks are latched until the step ends.
 ///
 /// Where no equilibrium lies near (a crack snaps), the load factor is held and the history is let grow
-/// viscously, solve by solve, until the inviscid law is in equilibrium again.
+/// viscously, solve by solve, until the inviscid law is in equilibrium again. A snap that does not end so, the
+/// failure of the beam for instance, is followed as a damped motion of fictitious masses to its end.
 #[derive(Debug, Clone, Default)]
 pub struct SecantAnderson {
     settings: SecantSettings,
@@ -63,6 +71,17 @@ struct Solve {
     converged: Option<Residual>,
     iterations: usize,
 }
+
+/// End of a snap.
+struct Snap {
+    free: Vec<f64>,
+    residual: Residual,
+    iterations: usize,
+    held: usize,
+}
+
+/// Relative residual at which dynamic relaxation first gives over to the static iteration.
+const FIRST_REST: f64 = 1e-2;
 
 impl SecantAnderson {
     /// A driver with the given settings.
@@ -158,6 +177,89 @@ impl SecantAnderson {
         Ok(free)
     }
 
+    /// From the accepted displacement to the next equilibrium at a held load factor: viscous solves first, which
+    /// pass small snaps in a few iterations, then dynamic relaxation.
+    fn pass_snap(
+        &self,
+        stage: &mut Stage<'_>,
+        lambda: f64,
+        mut residual: Residual,
+        criterion: f64,
+        log: &mut IterationLog<'_>,
+    ) -> Result<Snap, SolverError> {
+        let mut free = stage.restrict(stage.displacement());
+        let mut relaxation = 0.5;
+        let (mut held, mut iterations) = (0, 0);
+        while held < self.settings.max_holds && iterations < self.settings.max_held_iterations {
+            held += 1;
+            // States passed through on the way need no more than a fraction of what is still amiss.
+            let inner = (0.8 * criterion).max(self.settings.transit * residual.relative);
+            let solve = self.solve(stage, free.clone(), lambda, relaxation, inner, log)?;
+            iterations += solve.iterations;
+            if solve.converged.is_none() {
+                relaxation *= 0.3;
+                if relaxation < self.settings.min_relaxation {
+                    break;
+                }
+                continue;
+            }
+            let u = stage.compose(&solve.free, lambda);
+            let ctx = EvaluationContext {
+                operator: Operator::None,
+                relaxation,
+            };
+            stage.residual(&u, lambda, &ctx)?;
+            stage.advance();
+            free = solve.free;
+            residual = Self::check(stage, &free, lambda)?;
+            if residual.relative <= criterion {
+                return Ok(Snap {
+                    free,
+                    residual,
+                    iterations,
+                    held,
+                });
+            }
+            if solve.iterations < self.settings.max_iterations / 2 {
+                relaxation = (1.6 * relaxation).min(1.0 - 0.6 * (1.0 - relaxation));
+            }
+        }
+        let settings = self.settings.dynamic;
+        let mut motion = DynamicRelaxation::at_rest(stage, settings, &free, lambda)?;
+        let mut target = FIRST_REST;
+        let mut steps = 0;
+        while steps < settings.max_steps {
+            let left = settings.max_steps - steps;
+            let (size, made) = motion.run(stage, &mut free, lambda, target, left)?;
+            steps += made;
+            residual = size;
+            if residual.relative <= criterion {
+                break;
+            }
+            // Near enough to rest, the static iteration ends what the motion would approach slowly.
+            let solve = self.solve(stage, free.clone(), lambda, 1.0, criterion, log)?;
+            iterations += solve.iterations;
+            if let Some(size) = solve.converged {
+                (free, residual) = (solve.free, size);
+                break;
+            }
+            stage.advance();
+            motion = DynamicRelaxation::at_rest(stage, settings, &free, lambda)?;
+            target = (0.3 * target).max(criterion);
+        }
+        if residual.relative > criterion {
+            residual = Self::check(stage, &free, lambda)?;
+        }
+        iterations += steps;
+        held += 1;
+        Ok(Snap {
+            free,
+            residual,
+            iterations,
+            held,
+        })
+    }
+
     /// Residual of the inviscid law at `free`; the trial state becomes the inviscid one.
     fn check(stage: &mut Stage<'_>, free: &[f64], lambda: f64) -> Result<Residual, SolverError> {
         let u = stage.compose(free, lambda);
@@ -180,7 +282,7 @@ impl Driver for SecantAnderson {
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
         let lambda = stage.lambda() + length;
-        let mut relaxation = length / (self.settings.viscosity + length);
+        let relaxation = length / (self.settings.viscosity + length);
         // The viscous iterate is solved a little tighter, so that the inviscid check can pass.
         let inner = if relaxation < 1.0 {
             0.8 * criterion
@@ -197,47 +299,15 @@ impl Driver for SecantAnderson {
         };
         let mut held = 0;
         if residual.relative > criterion && last_resort {
-            relaxation = 0.5;
             let nearest = (residual.relative, solve.free.clone());
-            let mut free = stage.restrict(stage.displacement());
-            while held < self.settings.max_holds {
-                held += 1;
-                // States passed through on the way need no more than a fraction of what is still amiss.
-                let inner = inner.max(self.settings.transit * residual.relative);
-                solve = self.solve(stage, free.clone(), lambda, relaxation, inner, log)?;
-                iterations += solve.iterations;
-                if solve.converged.is_none() {
-                    relaxation *= 0.3;
-                    if relaxation < self.settings.min_relaxation {
-                        break;
-                    }
-                    continue;
-                }
-                let u = stage.compose(&solve.free, lambda);
-                let ctx = EvaluationContext {
-                    operator: Operator::None,
-                    relaxation,
-                };
-                stage.residual(&u, lambda, &ctx)?;
-                stage.advance();
-                free.clone_from(&solve.free);
-                residual = Self::check(stage, &free, lambda)?;
-                if residual.relative <= criterion {
-                    break;
-                }
-                if solve.iterations < self.settings.max_iterations / 2 {
-                    relaxation = (1.6 * relaxation).min(1.0 - 0.6 * (1.0 - relaxation));
-                }
-            }
-            solve.free = free;
-            if residual.relative > criterion {
-                // The snap was not passed: the nearer of the two states, that where it was left and the best
-                // iterate of the regular solve.
+            let snap = self.pass_snap(stage, lambda, residual, criterion, log)?;
+            (solve.free, residual) = (snap.free, snap.residual);
+            iterations += snap.iterations;
+            held = snap.held;
+            if residual.relative > criterion && nearest.0 < residual.relative {
+                // The snap was not passed, and the best iterate of the regular solve is nearer.
+                solve.free = nearest.1;
                 residual = Self::check(stage, &solve.free, lambda)?;
-                if nearest.0 < residual.relative {
-                    solve.free = nearest.1;
-                    residual = Self::check(stage, &solve.free, lambda)?;
-                }
             }
         }
         Ok(Attempt {

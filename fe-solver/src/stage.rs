@@ -259,6 +259,33 @@ impl<'m> Stage<'m> {
         Ok(self.counters.negative_pivots)
     }
 
+    /// Sums of |K_ij| over the rows of the undamaged model at rest, on the free equations (N/mm).
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError::Model`].
+    pub fn elastic_row_sums(&mut self) -> Result<Vec<f64>, SolverError> {
+        let mut virgin = StateStore::new(self.model.elements());
+        let zero = vec![0.0; self.displacement.len()];
+        let mut assembled = Assembled::default();
+        let ctx = EvaluationContext::new(Operator::Secant);
+        self.assembler
+            .evaluate(self.model, &zero, &mut virgin, &ctx, &mut assembled)?;
+        for value in assembled
+            .matrix
+            .lower
+            .iter_mut()
+            .chain(&mut assembled.matrix.upper)
+        {
+            *value = value.abs();
+        }
+        let n = self.assembler.free().len();
+        let mut sums = vec![0.0; n];
+        let pattern = self.assembler.pattern();
+        assembled.matrix.multiply(pattern, &vec![1.0; n], &mut sums);
+        Ok(sums)
+    }
+
     /// Solves with the last factor, in place.
     ///
     /// # Errors

@@ -39,7 +39,7 @@ use crate::spec::{Sheets, Specimen};
 pub enum BuildError {
     /// Too few elements in one direction.
     #[error(
-        "mesh: {elements} elements {along} the beam are too few for the plates and sheets of {specimen}; \
+        "mesh: {elements} elements {along} the beam are too few for the plates and sheets of {specimen}; with --mesh \
          give {least} or more"
     )]
     TooFewElements {
