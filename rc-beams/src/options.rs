@@ -182,8 +182,10 @@ pub struct MeshSize {
 
 /// Largest number of elements in one direction.
 const MAX_ELEMENTS: usize = 1000;
-/// Largest number of elements in all: the factor of such a mesh takes a few GB.
+/// Largest number of elements in all.
 const MAX_TOTAL: usize = 20_000;
+/// Largest factor of the stiffness (GB); a run takes about three times as much.
+const MAX_FACTOR_GB: f64 = 4.0;
 
 impl FromStr for MeshSize {
     type Err = String;
@@ -216,7 +218,27 @@ impl FromStr for MeshSize {
                 "{total} elements; allowed: up to {MAX_TOTAL} in all, for instance 60x4x1"
             ));
         }
-        Ok(Self { nx, ny, nz })
+        let size = Self { nx, ny, nz };
+        let factor = size.factor_gb();
+        if factor > MAX_FACTOR_GB {
+            return Err(format!(
+                "the factor of the stiffness would take about {factor:.0} GB; allowed: up to \
+                 {MAX_FACTOR_GB} GB; give fewer elements up and across, for instance 60x4x1"
+            ));
+        }
+        Ok(size)
+    }
+}
+
+impl MeshSize {
+    /// About how much the factor of the stiffness takes (GB): equations are numbered along the beam, so that
+    /// a layer of elements is coupled with the next, and the band is filled.
+    fn factor_gb(self) -> f64 {
+        let [nx, ny, nz] = [self.nx, self.ny, self.nz].map(|n| n as f64);
+        let face = (2.0 * ny + 1.0) * (2.0 * nz + 1.0) - ny * nz;
+        let middle = (ny + 1.0) * (nz + 1.0);
+        let layer = 3.0 * (face + middle);
+        8.0 * nx * layer * layer / 1e9
     }
 }
 

@@ -61,9 +61,14 @@ impl SymmetricFactor {
             symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
         ]);
         let memory = MemBuffer::try_new(request).map_err(|_| LinearError::OutOfMemory)?;
+        let mut factor = Vec::new();
+        factor
+            .try_reserve_exact(symbolic.len_val())
+            .map_err(|_| LinearError::OutOfMemory)?;
+        factor.resize(symbolic.len_val(), 0.0);
         Ok(Self {
             diagonal: col_ptr[..n].to_vec(),
-            factor: vec![0.0; symbolic.len_val()],
+            factor,
             subdiagonal: vec![0.0; n],
             forward: identity.clone(),
             inverse: identity,

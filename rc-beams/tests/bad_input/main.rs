@@ -404,6 +404,11 @@ const COMMANDS: &[Arguments] = &[
         &["--mesh", "1000000000 elements", "up to 20000 in all"],
     ),
     (
+        &["run", "A-SO3-1", "--mesh", "27x27x27"],
+        2,
+        &["--mesh", "would take about 18 GB; allowed: up to 4 GB"],
+    ),
+    (
         &["run", "A-SO3-1", "--mesh", "60x4"],
         2,
         &["--mesh", "2 counts; write three", "60x4x1"],
