@@ -255,6 +255,10 @@ impl Element for Interface16 {
         Ok(())
     }
 
+    fn interface_face(&self) -> Option<[NodeId; 8]> {
+        Some(std::array::from_fn(|a| self.nodes[a]))
+    }
+
     fn unsymmetric(&self) -> bool {
         self.law.unsymmetric_tangent()
     }

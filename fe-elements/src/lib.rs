@@ -9,6 +9,7 @@ pub mod membrane8;
 pub mod quad8;
 pub mod sheet;
 mod surface;
+pub mod truss3;
 
 use fe_core::points;
 
@@ -17,3 +18,4 @@ pub use hex20::{BandWidth, Hex20, HexRule};
 pub use membrane8::Membrane8;
 pub use quad8::{Quad8, QuadRule};
 pub use sheet::Sheet;
+pub use truss3::Truss3;
