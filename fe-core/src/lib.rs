@@ -30,6 +30,7 @@
 pub mod assembly;
 pub mod dof;
 pub mod element;
+pub mod energy;
 pub mod grid;
 pub mod kinematics;
 pub mod material;
@@ -39,6 +40,7 @@ pub mod output;
 pub mod point;
 pub mod points;
 pub mod shape;
+pub mod skin;
 pub mod sparsity;
 pub mod state;
 pub mod testing;

@@ -119,6 +119,20 @@ impl Mesh {
         }
     }
 
+    /// Adds a node (mm) and returns its index. Sets made before do not take it up.
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError::NotFinite`].
+    pub fn add_node(&mut self, position: [f64; 3]) -> Result<NodeId, MeshError> {
+        let id = self.nodes.len();
+        if position.iter().any(|c| !c.is_finite()) {
+            return Err(MeshError::NotFinite(id));
+        }
+        self.nodes.push(position);
+        Ok(id)
+    }
+
     /// Adds a block of cells.
     ///
     /// # Errors

@@ -36,6 +36,13 @@ impl StateStore {
         }
     }
 
+    /// Takes over the committed variables of a model whose elements are the first ones of this.
+    pub fn adopt(&mut self, other: &Self) {
+        let n = other.committed.len().min(self.committed.len());
+        self.committed[..n].copy_from_slice(&other.committed[..n]);
+        self.roll_back();
+    }
+
     /// Where an element's variables lie.
     pub fn range(&self, element: usize) -> Range<usize> {
         self.offsets[element]..self.offsets[element + 1]

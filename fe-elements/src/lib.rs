@@ -1,13 +1,15 @@
-//! Finite elements: the 20-node hexahedron, 8-node plane-stress quadrilaterals in a plane and in space, and bars
-//! embedded in hexahedra of any shape, with consistent loads.
+//! Finite elements: the 20-node hexahedron, 8-node plane-stress quadrilaterals in a plane and in space, the 8-node
+//! layered shell, and bars embedded in hexahedra of any shape, with consistent loads.
 
 pub mod embedded_bar;
 pub mod hex20;
+pub mod installed;
 mod kernel;
 pub mod loads;
 pub mod membrane8;
 pub mod quad8;
 pub mod sheet;
+pub mod shell8;
 mod surface;
 pub mod truss3;
 
@@ -15,7 +17,9 @@ use fe_core::points;
 
 pub use embedded_bar::{Bar, Dowel, EmbeddedBar, embed};
 pub use hex20::{BandWidth, Hex20, HexRule};
+pub use installed::Installed;
 pub use membrane8::Membrane8;
 pub use quad8::{Quad8, QuadRule};
 pub use sheet::Sheet;
+pub use shell8::{Layer, Shell8, ShellSection};
 pub use truss3::Truss3;

@@ -50,19 +50,10 @@ impl Membrane8 {
         admit_thickness(thickness)?;
         let mut points = Vec::new();
         for place in surface::places(coords, rule, axis)? {
-            let mut b = [[0.0; 24]; 3];
-            for (a, [g1, g2]) in place.gradients.into_iter().enumerate() {
-                for k in 0..3 {
-                    let (e1, e2) = (place.axes[0][k], place.axes[1][k]);
-                    b[0][3 * a + k] = g1 * e1;
-                    b[1][3 * a + k] = g2 * e2;
-                    b[2][3 * a + k] = g2 * e1 + g1 * e2;
-                }
-            }
             points.push(Point {
                 position: place.position,
                 volume: thickness * place.area,
-                b,
+                b: place.strain(),
             });
         }
         Self::of_points(nodes, points, thickness, law)

@@ -53,10 +53,10 @@ impl Quad8 {
             let (values, slopes) = quad8::shape(xi);
             let jacobian =
                 Matrix2::from_fn(|r, c| (0..8).map(|a| slopes[a][r] * coords[a][c]).sum());
-            let (gradients, determinant) = gradients(&slopes, jacobian)
+            let (inverse, determinant) = invert(jacobian)
                 .map_err(|determinant| ElementError::Jacobian { point, determinant })?;
             let mut b = [[0.0; 16]; 3];
-            for (a, [x, y]) in gradients.into_iter().enumerate() {
+            for (a, [x, y]) in gradients(&slopes, &inverse).into_iter().enumerate() {
                 (b[0][2 * a], b[1][2 * a + 1]) = (x, y);
                 (b[2][2 * a], b[2][2 * a + 1]) = (y, x);
             }
@@ -71,18 +71,14 @@ impl Quad8 {
     }
 }
 
-/// Gradients of the shape functions in the plane and the determinant of the Jacobian matrix dx_c/dxi_r; the
-/// determinant alone if it is not positive.
-pub(crate) fn gradients(
-    slopes: &[[f64; 2]; 8],
-    jacobian: Matrix2<f64>,
-) -> Result<([[f64; 2]; 8], f64), f64> {
+/// Inverse and determinant of a Jacobian matrix dx_c/dxi_r; the determinant alone if it is not positive.
+pub(crate) fn invert(jacobian: Matrix2<f64>) -> Result<(Matrix2<f64>, f64), f64> {
     let determinant = jacobian.determinant();
-    let inverse = jacobian
-        .try_inverse()
-        .filter(|_| determinant > 0.0)
-        .ok_or(determinant)?;
-    let gradient =
-        |s: &[f64; 2]| std::array::from_fn(|c| inverse[(c, 0)] * s[0] + inverse[(c, 1)] * s[1]);
-    Ok((slopes.each_ref().map(gradient), determinant))
+    let inverse = jacobian.try_inverse().filter(|_| determinant > 0.0);
+    Ok((inverse.ok_or(determinant)?, determinant))
+}
+
+/// Derivatives along x_c from those along xi_r, by the inverse of the Jacobian matrix.
+pub(crate) fn gradients(slopes: &[[f64; 2]; 8], inverse: &Matrix2<f64>) -> [[f64; 2]; 8] {
+    slopes.map(|s| std::array::from_fn(|c| inverse[(c, 0)] * s[0] + inverse[(c, 1)] * s[1]))
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
 use fe_core::kinematics::PlaneStress;
-use fe_core::material::{Material, Operator, PointContext};
+use fe_core::material::{Material, Operator, PointContext, Response};
 use fe_core::mesh::{CellKind, NodeId};
 use nalgebra::Vector3;
 
@@ -36,9 +36,36 @@ pub(crate) struct Point<const N: usize> {
 }
 
 impl<const N: usize> Point<N> {
-    fn strain(&self, u: &[f64]) -> Vector3<f64> {
+    pub(crate) fn strain(&self, u: &[f64]) -> Vector3<f64> {
         let row = |b: &[f64; N]| b.iter().zip(u).map(|(b, u)| b * u).sum();
         Vector3::new(row(&self.b[0]), row(&self.b[1]), row(&self.b[2]))
+    }
+
+    /// Adds w B^T sigma and, if an operator is asked for, w B^T D B; of the latter the upper triangle unless
+    /// `unsymmetric`.
+    pub(crate) fn add(
+        &self,
+        response: &Response<PlaneStress>,
+        operator: Operator,
+        unsymmetric: bool,
+        force: &mut [f64],
+        stiffness: &mut [f64],
+    ) {
+        let [b0, b1, b2] = &self.b;
+        let s = response.stress * self.volume;
+        for (i, f) in force.iter_mut().enumerate().take(N) {
+            *f += b0[i] * s[0] + b1[i] * s[1] + b2[i] * s[2];
+        }
+        if operator == Operator::None {
+            return;
+        }
+        let d = response.tangent * self.volume;
+        for (i, row) in stiffness.chunks_exact_mut(N).enumerate() {
+            let r = d.tr_mul(&Vector3::new(b0[i], b1[i], b2[i]));
+            for j in if unsymmetric { 0 } else { i }..N {
+                row[j] += r[0] * b0[j] + r[1] * b1[j] + r[2] * b2[j];
+            }
+        }
     }
 }
 
@@ -103,7 +130,7 @@ impl<const N: usize> Element for Sheet<N> {
     ) -> Result<(), ElementError> {
         let n = self.law.state_len();
         let point_ctx = points::context(self.band_width, ctx);
-        let unsymmetric = self.law.unsymmetric_tangent();
+        let (operator, unsymmetric) = (ctx.operator, self.law.unsymmetric_tangent());
         for (p, point) in self.points.iter().enumerate() {
             let range = p * n..(p + 1) * n;
             let response = self
@@ -115,21 +142,7 @@ impl<const N: usize> Element for Sheet<N> {
                     &point_ctx,
                 )
                 .map_err(|source| ElementError::Material { point: p, source })?;
-            let [b0, b1, b2] = &point.b;
-            let s = response.stress * point.volume;
-            for i in 0..N {
-                out.force[i] += b0[i] * s[0] + b1[i] * s[1] + b2[i] * s[2];
-            }
-            if ctx.operator == Operator::None {
-                continue;
-            }
-            let d = response.tangent * point.volume;
-            for (i, row) in out.stiffness.chunks_exact_mut(N).enumerate() {
-                let r = d.tr_mul(&Vector3::new(b0[i], b1[i], b2[i]));
-                for j in if unsymmetric { 0 } else { i }..N {
-                    row[j] += r[0] * b0[j] + r[1] * b1[j] + r[2] * b2[j];
-                }
-            }
+            point.add(&response, operator, unsymmetric, out.force, out.stiffness);
         }
         Ok(())
     }

@@ -2,9 +2,9 @@
 
 use fe_core::element::ElementError;
 use fe_core::shape::quad8;
-use nalgebra::{Matrix2, Vector3};
+use nalgebra::{Matrix2, Rotation2, Vector2, Vector3};
 
-use crate::quad8::{QuadRule, gradients};
+use crate::quad8::{QuadRule, gradients, invert};
 
 /// Smallest angle between the direction of axis 1 and the normal (degrees).
 const LEAST_ANGLE: f64 = 1.0;
@@ -14,16 +14,51 @@ const LEAST_ANGLE: f64 = 1.0;
 pub(crate) struct Place {
     /// Position (mm).
     pub(crate) position: [f64; 3],
+    /// Natural coordinates.
+    pub(crate) xi: [f64; 2],
+    /// Shape functions.
+    pub(crate) values: [f64; 8],
     /// Axis 1, axis 2 and the normal; orthonormal, right-handed.
     pub(crate) axes: [Vector3<f64>; 3],
+    /// Derivatives of the natural coordinates: dxi_r/ds_c at (c, r) (1/mm).
+    pub(crate) inverse: Matrix2<f64>,
     /// Derivatives of the shape functions along axes 1 and 2 (1/mm).
     pub(crate) gradients: [[f64; 2]; 8],
     /// Area the point stands for (mm2).
     pub(crate) area: f64,
 }
 
+impl Place {
+    /// The point with axes 1 and 2 turned by an angle (radians) about the normal.
+    pub(crate) fn turned(mut self, angle: f64) -> Self {
+        let turn = Rotation2::new(angle);
+        let [first, second, normal] = self.axes;
+        let (s, c) = angle.sin_cos();
+        self.axes = [c * first + s * second, c * second - s * first, normal];
+        self.inverse = turn.matrix().transpose() * self.inverse;
+        self.gradients = self
+            .gradients
+            .map(|g| (turn.inverse() * Vector2::from(g)).into());
+        self
+    }
+
+    /// Strains 11, 22, 12 (engineering shear) per nodal displacement, node-major (1/mm).
+    pub(crate) fn strain(&self) -> [[f64; 24]; 3] {
+        let mut b = [[0.0; 24]; 3];
+        for (a, [g1, g2]) in self.gradients.into_iter().enumerate() {
+            for k in 0..3 {
+                let (e1, e2) = (self.axes[0][k], self.axes[1][k]);
+                b[0][3 * a + k] = g1 * e1;
+                b[1][3 * a + k] = g2 * e2;
+                b[2][3 * a + k] = g2 * e1 + g1 * e2;
+            }
+        }
+        b
+    }
+}
+
 /// Base vectors dx/dxi and dx/deta (mm) of the surface.
-fn base(coords: &[[f64; 3]; 8], slopes: &[[f64; 2]; 8]) -> [Vector3<f64>; 2] {
+pub(crate) fn base(coords: &[[f64; 3]; 8], slopes: &[[f64; 2]; 8]) -> [Vector3<f64>; 2] {
     std::array::from_fn(|k| {
         let terms = slopes.iter().zip(coords);
         terms.map(|(s, x)| s[k] * Vector3::from(*x)).sum()
@@ -56,7 +91,7 @@ pub(crate) fn places(
         let normal = area_vector / area;
         let axes = material_axes(point, normal, axis)?;
         let jacobian = Matrix2::from_fn(|r, c| tangents[r].dot(&axes[c]));
-        let (gradients, determinant) = gradients(&slopes, jacobian)
+        let (inverse, determinant) = invert(jacobian)
             .map_err(|determinant| ElementError::Jacobian { point, determinant })?;
         let position: Vector3<f64> = values
             .iter()
@@ -65,8 +100,11 @@ pub(crate) fn places(
             .sum();
         Ok(Place {
             position: position.into(),
+            xi,
+            values,
             axes,
-            gradients,
+            inverse,
+            gradients: gradients(&slopes, &inverse),
             area: weight * determinant,
         })
     };

@@ -10,17 +10,24 @@ use crate::stage::Stage;
 pub enum OnFailure {
     /// Stop with [`SolverError::NoConvergence`].
     Stop,
-    /// Accept the best iterate and flag the step.
+    /// Accept the best iterate and flag the step; stop with [`SolverError::NoConvergence`] after
+    /// [`MAX_FLAGGED`] such steps in a row.
     Flag,
 }
+
+/// Steps in a row that may miss the criterion; a path that loses equilibrium for longer is not followed.
+pub const MAX_FLAGGED: usize = 10;
 
 /// Settings of the step control; lengths in units of the load factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepControl {
     /// First step.
     pub initial: f64,
-    /// Longest step.
+    /// Longest step at the start.
     pub longest: f64,
+    /// Share of the load factor reached that a step may take where this is more than `longest`; 0 keeps
+    /// `longest` throughout.
+    pub longest_share: f64,
     /// Shortest step.
     pub shortest: f64,
     /// Load factor at which the stage ends.
@@ -50,6 +57,7 @@ impl StepControl {
         Self {
             initial,
             longest: initial,
+            longest_share: 0.0,
             shortest: initial / 64.0,
             end,
             criterion: 1e-3,
@@ -93,13 +101,15 @@ impl StepControl {
         let mut progress = 0.0;
         let mut step = 1;
         let mut attempts = 0;
+        let mut flagged = 0;
         loop {
             let remaining = self.end - progress;
+            let longest = self.longest.max(self.longest_share * progress);
             if remaining <= 1e-9 * self.end {
                 return Ok(format!("reached the end of the stage at {}", self.end));
             }
             // A last sliver shorter than half a step is merged into this one.
-            let this = if remaining < 1.5 * length && remaining <= self.longest {
+            let this = if remaining < 1.5 * length && remaining <= longest {
                 remaining
             } else {
                 length.min(remaining)
@@ -116,15 +126,18 @@ impl StepControl {
             match attempt {
                 Ok(attempt)
                     if attempt.converged
-                        || (!can_shorten && self.on_failure == OnFailure::Flag) =>
+                        || (!can_shorten
+                            && self.on_failure == OnFailure::Flag
+                            && flagged < MAX_FLAGGED) =>
                 {
+                    flagged = if attempt.converged { 0 } else { flagged + 1 };
                     let easy = attempt.converged && attempt.iterations < self.easy;
                     let verdict = Self::accept(stage, recorder, attempt, step, attempts)?;
                     if let Continue::Stop(reason) = verdict {
                         return Ok(reason);
                     }
                     length = if easy {
-                        (this * self.growth).max(length).min(self.longest)
+                        (this * self.growth).max(length).min(longest)
                     } else {
                         this.min(length)
                     };

@@ -24,6 +24,9 @@ pub struct SecantSettings {
     pub max_holds: usize,
     /// Smallest relaxation a of such a solve before a snap is given up.
     pub min_relaxation: f64,
+    /// Relative residual of such a solve over that of the inviscid law before it, where this is looser than the
+    /// criterion.
+    pub transit: f64,
 }
 
 impl Default for SecantSettings {
@@ -35,6 +38,7 @@ impl Default for SecantSettings {
             rebuild_after: 30,
             max_holds: 150,
             min_relaxation: 1e-4,
+            transit: 0.1,
         }
     }
 }
@@ -194,9 +198,12 @@ impl Driver for SecantAnderson {
         let mut held = 0;
         if residual.relative > criterion && last_resort {
             relaxation = 0.5;
+            let nearest = (residual.relative, solve.free.clone());
             let mut free = stage.restrict(stage.displacement());
             while held < self.settings.max_holds {
                 held += 1;
+                // States passed through on the way need no more than a fraction of what is still amiss.
+                let inner = inner.max(self.settings.transit * residual.relative);
                 solve = self.solve(stage, free.clone(), lambda, relaxation, inner, log)?;
                 iterations += solve.iterations;
                 if solve.converged.is_none() {
@@ -224,8 +231,13 @@ impl Driver for SecantAnderson {
             }
             solve.free = free;
             if residual.relative > criterion {
-                // The last solve failed: return to the state it started from.
+                // The snap was not passed: the nearer of the two states, that where it was left and the best
+                // iterate of the regular solve.
                 residual = Self::check(stage, &solve.free, lambda)?;
+                if nearest.0 < residual.relative {
+                    solve.free = nearest.1;
+                    residual = Self::check(stage, &solve.free, lambda)?;
+                }
             }
         }
         Ok(Attempt {

@@ -112,6 +112,11 @@ impl<'m> Stage<'m> {
         self.model
     }
 
+    /// Conditions of the stage.
+    pub const fn conditions(&self) -> &Conditions {
+        &self.conditions
+    }
+
     /// Equation numbers and constraints.
     pub const fn assembler(&self) -> &Assembler {
         &self.assembler

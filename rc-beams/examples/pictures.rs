@@ -1,4 +1,4 @@
-//! Draws the two pictures of a run from invented data, to look at their design:
+//! Draws the pictures of a run and of a report from invented data, to look at their design:
 //! `cargo run --release -p rc-beams --example pictures -- FOLDER`.
 
 use std::error::Error;
@@ -6,10 +6,14 @@ use std::path::PathBuf;
 
 use fe_solver::capacity::{Capacity, PathPoint, Verdict};
 use rc_beams::results::crack::CrackView;
-use rc_beams::results::curve::Curve;
+use rc_beams::results::curve::{Curve, GroupCurves, GroupLine};
 use rc_beams::results::drawing::Picture;
 use rc_beams::results::evidence::ConcretePoint;
 use rc_beams::results::folder::Folder;
+use rc_beams::results::sheets::{
+    Face, InterfacePoint, MapRow, MapState, SheetLayout, SheetPoint, SheetState, SheetView, Shown,
+    Zone,
+};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let root = std::env::args_os()
@@ -41,6 +45,56 @@ fn main() -> Result<(), Box<dyn Error>> {
     curve.save_png(&folder, "curve")?;
     cracks.save_svg(&folder, "crack")?;
     cracks.save_png(&folder, "crack")?;
+    let sheets = sheets();
+    let rows = MapRow::of(MapState::Peak, &sheets, &sheet_state());
+    for shown in [Shown::Slip, Shown::FibreStress] {
+        let view = SheetView {
+            specimen: "A-SO3-3",
+            title: &format!("invented: {}", shown.title(240.4, 5.9)),
+            shown,
+            state: MapState::Peak,
+            rows: &rows,
+            zones: &sheets.zones,
+            elements: cracks.elements,
+            supports: cracks.supports,
+            loads: cracks.loads,
+        };
+        view.save_svg(&folder, shown.file())?;
+        view.save_png(&folder, shown.file())?;
+        let alone = SheetView {
+            zones: &[],
+            elements: &[],
+            supports: &[],
+            loads: &[],
+            ..view
+        };
+        alone.save_png(&folder, &format!("{}-from-rows", shown.file()))?;
+    }
+    let points: Vec<[f64; 2]> = path.iter().map(|p| [p.deflection, p.load]).collect();
+    let lines = [
+        ("A-SO3-1", Some(151.0)),
+        ("A-SO3-2", None),
+        ("A-SO3-3", Some(267.1)),
+    ];
+    let scaled: Vec<Vec<[f64; 2]>> = [1.0, 1.4, 1.7]
+        .map(|f| points.iter().map(|p| [f * p[0], f * p[1]]).collect())
+        .into();
+    let lines: Vec<GroupLine<'_>> = lines
+        .iter()
+        .zip(&scaled)
+        .map(|((name, test_load_kn), path)| GroupLine {
+            name,
+            path,
+            peak: path[capacity.peak],
+            test_load_kn: *test_load_kn,
+        })
+        .collect();
+    let group = GroupCurves {
+        name: "A-SO3",
+        lines: &lines,
+    };
+    group.save_svg(&folder, "group")?;
+    group.save_png(&folder, "group")?;
     println!("see {}", folder.path().display());
     Ok(())
 }
@@ -109,4 +163,57 @@ fn points() -> Vec<ConcretePoint> {
         }
     };
     (0..960).map(point).collect()
+}
+
+/// Strips of 75 mm every 125 mm.
+fn sheets() -> SheetLayout {
+    let zone = |i: u32| {
+        let from = 670.0 + 125.0 * f64::from(i);
+        Zone {
+            name: format!("strip {}", i + 1),
+            x_mm: [from, from + 75.0],
+            y_mm: [0.0, 305.0],
+        }
+    };
+    SheetLayout {
+        zones: (0..14).map(zone).collect(),
+        stirrups_in_spans: vec![6, 0],
+    }
+}
+
+/// Slip and stress along a diagonal crack in the right span; one element of 75 mm per strip, four over the height.
+fn sheet_state() -> SheetState {
+    let gauss = [(0.1127, 0.2778), (0.5, 0.4444), (0.8873, 0.2778)];
+    let mut state = SheetState::default();
+    for (zone, strip) in sheets().zones.iter().enumerate() {
+        for line in 0..4 {
+            for ((a, wa), (b, wb)) in gauss.into_iter().flat_map(|a| gauss.map(|b| (a, b))) {
+                let x = strip.x_mm[0] + 75.0 * a;
+                let y = 76.25 * (f64::from(line) + b);
+                let off = (x - 1760.0) - (290.0 - y) * 1.9;
+                let slip = 0.31 * (-(off / 110.0).powi(2)).exp();
+                let (position, area_mm2) = ([x, y, 75.0], 75.0 * 76.25 * wa * wb);
+                state.sheet.push(SheetPoint {
+                    position,
+                    zone,
+                    face: Face::Side,
+                    area_mm2,
+                    thickness_mm: 0.165,
+                    fibre_stress_mpa: 1390.0 * (-(off / 160.0).powi(2)).exp(),
+                    utilisation: 0.3,
+                });
+                state.interface.push(InterfacePoint {
+                    position,
+                    zone,
+                    face: Face::Side,
+                    area_mm2,
+                    slip_mm: slip,
+                    slip_max_mm: slip,
+                    s0_mm: 0.05,
+                    sf_mm: 0.19,
+                });
+            }
+        }
+    }
+    state
 }

@@ -9,7 +9,8 @@ use fe_solver::recorder::{Continue, IterationRecord, Recorder, StepView};
 use fe_solver::stage::{Counters, PhaseTimes, Stage};
 use std::io;
 
-use crate::build::Beam;
+use crate::build::{Beam, BuildError, ModelSettings};
+use crate::spec::{HoldOrUnload, Specimen, Staged};
 
 /// A path is followed to this multiple of the deflection at its largest load.
 pub const FOLLOW: f64 = 1.5;
@@ -29,6 +30,8 @@ pub struct Stepping {
 
 /// Longest step over the first one.
 const LONGEST: f64 = 2.0;
+/// Share of the deflection reached that a step may take where this is longer.
+const LONGEST_SHARE: f64 = 0.01;
 /// First step over the shortest one.
 const SHORTEST: f64 = 16.0;
 /// Steps with fewer iterations are followed by longer ones.
@@ -40,6 +43,7 @@ impl Stepping {
     fn control(&self) -> StepControl {
         StepControl {
             longest: (LONGEST * self.initial_mm).min(self.until_mm),
+            longest_share: LONGEST_SHARE,
             shortest: self.initial_mm / SHORTEST,
             criterion: self.criterion,
             easy: EASY,
@@ -101,17 +105,64 @@ pub trait Observer {
     /// An output error ends the run.
     fn iteration(&mut self, record: &IterationRecord) -> io::Result<()>;
 
-    /// A step of the load stage was accepted. The answer tells whether to go on.
+    /// A step under load was accepted, counted through all stages. The answer tells whether to go on.
     ///
     /// # Errors
     ///
     /// An output error ends the run.
-    fn step(&mut self, view: &StepView<'_>, reading: &Reading) -> io::Result<Continue>;
+    fn step(&mut self, view: &StepView<'_>, step: usize, reading: &Reading)
+    -> io::Result<Continue>;
+
+    /// Sheets have been bonded to the loaded beam: from now on it is this one, with `u` the displacements of
+    /// all its DOFs.
+    ///
+    /// # Errors
+    ///
+    /// An output error ends the run.
+    fn bonded(&mut self, beam: &Beam, u: &[f64]) -> io::Result<()>;
+}
+
+/// A beam that is loaded before its sheets are bonded.
+#[derive(Debug, Clone, Copy)]
+pub struct Staging<'a> {
+    /// The specimen.
+    pub specimen: &'a Specimen,
+    /// How it is modelled.
+    pub settings: &'a ModelSettings,
+    /// Load and what happens to it while the sheets are bonded.
+    pub staged: &'a Staged,
+}
+
+/// Why a path ended before its time.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum AnalysisError {
+    /// The solver gave up.
+    #[error(transparent)]
+    Solver(#[from] SolverError),
+    /// The bare beam fails before the sheets are bonded.
+    #[error(
+        "the bare beam carries {carried_kn:.1} kN, but its sheets are to be bonded at {wanted_kn:.1} kN; give a \
+         lower load in staged.load_kn"
+    )]
+    NotReached {
+        /// Largest load of the bare beam (kN).
+        carried_kn: f64,
+        /// Load at which the sheets are to be bonded (kN).
+        wanted_kn: f64,
+    },
+    /// The strengthened model cannot be built.
+    #[error(transparent)]
+    Build(#[from] BuildError),
 }
 
 /// What a run leaves behind.
 #[derive(Debug)]
 pub struct Outcome {
+    /// Load path before the sheets were bonded; empty unless the strengthening is staged.
+    pub before: Vec<PathPoint>,
+    /// The beam that was strengthened under load.
+    pub strengthened: Option<Beam>,
     /// Load path, one point per accepted step.
     pub path: Vec<PathPoint>,
     /// State at the largest load up to the fall; `None` without a step.
@@ -123,63 +174,175 @@ pub struct Outcome {
     /// Work done and wall time by phase, stage by stage.
     pub work: Vec<(Counters, PhaseTimes)>,
     /// Why the path ended.
-    pub stop: Result<String, SolverError>,
+    pub stop: Result<String, AnalysisError>,
 }
 
-/// Runs self weight, then the load stage.
+/// Displacements and states on the way from stage to stage.
+struct March<'a> {
+    observer: &'a mut dyn Observer,
+    driver: &'a mut dyn Driver,
+    stepping: &'a Stepping,
+    origin: Origin,
+    steps: usize,
+    work: Vec<(Counters, PhaseTimes)>,
+}
+
+/// Runs self weight, then the load stage; with `staging`, loads the bare beam first.
 ///
 /// # Errors
 ///
-/// [`SolverError`] when the beam cannot carry its own weight or the model is singular; later failures end the
-/// path and are kept in [`Outcome::stop`].
+/// [`SolverError`] when the beam cannot carry its own weight or the model is singular, [`BuildError`]; later
+/// failures end the path and are kept in [`Outcome::stop`].
 pub fn analyse(
     beam: &Beam,
+    staging: Option<&Staging<'_>>,
     stepping: &Stepping,
     driver: &mut dyn Driver,
     observer: &mut dyn Observer,
-) -> Result<Outcome, SolverError> {
-    let mut state = StateStore::new(beam.model.elements());
-    let zero = vec![0.0; beam.model.dofs().len()];
-    let mut origin = Origin::default();
-    let mut work = Vec::new();
-    let start = {
-        let mut stage = Stage::new(&beam.model, beam.weight.clone(), &mut state, zero)?;
+) -> Result<Outcome, AnalysisError> {
+    let mut march = March {
+        observer,
+        driver,
+        stepping,
+        origin: Origin::default(),
+        steps: 0,
+        work: Vec::new(),
+    };
+    let Some(staging) = staging else {
+        let mut state = StateStore::new(beam.model.elements());
+        let start = march.weight(beam, &mut state)?;
+        let (mut outcome, _) = march.load(beam, &mut state, start, stepping, Until::Failure)?;
+        outcome.work = march.work;
+        return Ok(outcome);
+    };
+    let bare = Beam::bare(staging.specimen, staging.settings)?;
+    let mut state = StateStore::new(bare.model.elements());
+    let start = march.weight(&bare, &mut state)?;
+    let wanted_kn = staging.staged.load_kn.get();
+    let until = Until::Load(wanted_kn);
+    let (mut first, mut imposed) = march.load(&bare, &mut state, start, stepping, until)?;
+    if first.path.last().is_none_or(|p| p.load < wanted_kn) {
+        if first.stop.is_ok() {
+            let carried_kn = first.path.iter().map(|p| p.load).fold(0.0, f64::max);
+            first.stop = Err(AnalysisError::NotReached {
+                carried_kn,
+                wanted_kn,
+            });
+        }
+        first.work = march.work;
+        return Ok(first);
+    }
+    if staging.staged.hold == HoldOrUnload::Unload {
+        let start = first.last.displacement.clone();
+        let back = Stepping {
+            until_mm: imposed,
+            ..*stepping
+        };
+        let until = Until::Unloaded;
+        let (unloading, way) = march.load(&bare, &mut state, start, &back, until)?;
+        imposed -= way;
+        first.path.extend(unloading.path);
+        first.last = unloading.last;
+        if let stop @ Err(_) = unloading.stop {
+            first.stop = stop;
+            first.work = march.work;
+            return Ok(first);
+        }
+    }
+    let at = (first.last.displacement.as_slice(), &state);
+    let (beam, start, mut state) = bare.strengthened(staging.specimen, staging.settings, at)?;
+    march
+        .observer
+        .bonded(&beam, &start)
+        .map_err(SolverError::Output)?;
+    let rest = Stepping {
+        until_mm: stepping.until_mm - imposed,
+        ..*stepping
+    };
+    let (outcome, _) = march.load(&beam, &mut state, start, &rest, Until::Failure)?;
+    Ok(Outcome {
+        before: first.path,
+        strengthened: Some(beam),
+        work: march.work,
+        ..outcome
+    })
+}
+
+/// Where a load stage ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Until {
+    /// Past the peak.
+    Failure,
+    /// At a load (kN), or past a peak below it.
+    Load(f64),
+    /// When the load is taken off; the loads move up.
+    Unloaded,
+}
+
+impl March<'_> {
+    /// Self weight. Returns the displacements.
+    fn weight(&mut self, beam: &Beam, state: &mut StateStore) -> Result<Vec<f64>, SolverError> {
+        let zero = vec![0.0; beam.model.dofs().len()];
+        let mut stage = Stage::new(&beam.model, beam.weight.clone(), state, zero)?;
         let mut recorder = WeightRecorder {
             beam,
-            observer: &mut *observer,
-            origin: &mut origin,
+            observer: &mut *self.observer,
+            origin: &mut self.origin,
         };
         let control = StepControl {
-            criterion: stepping.criterion,
+            criterion: self.stepping.criterion,
             ..StepControl::new(1.0, 1.0)
         };
-        control.run(&mut stage, driver, &mut recorder)?;
-        work.push((*stage.counters(), *stage.times()));
-        stage.displacement().to_vec()
-    };
-    let mut stage = Stage::new(&beam.model, beam.loading.clone(), &mut state, start)?;
-    let mut recorder = LoadRecorder {
-        beam,
-        observer,
-        origin: &origin,
-        to_the_end: stepping.to_the_end,
-        path: Vec::new(),
-        best: 0,
-        fell: false,
-        peak: None,
-    };
-    let stop = stepping.control().run(&mut stage, driver, &mut recorder);
-    work.push((*stage.counters(), *stage.times()));
-    let LoadRecorder { path, peak, .. } = recorder;
-    let last = path.last().map_or(0.0, |p| p.deflection);
-    Ok(Outcome {
-        path,
-        peak,
-        last: Snapshot::of(&stage, last),
-        self_weight_kn: 2.0 * origin.reactions.iter().sum::<f64>() / 1e3,
-        work,
-        stop,
-    })
+        control.run(&mut stage, self.driver, &mut recorder)?;
+        self.work.push((*stage.counters(), *stage.times()));
+        Ok(stage.displacement().to_vec())
+    }
+
+    /// One stage of imposed deflection. Returns what it leaves behind and how far the loads moved (mm).
+    fn load(
+        &mut self,
+        beam: &Beam,
+        state: &mut StateStore,
+        start: Vec<f64>,
+        stepping: &Stepping,
+        until: Until,
+    ) -> Result<(Outcome, f64), SolverError> {
+        let conditions = match until {
+            Until::Unloaded => &beam.unloading,
+            Until::Failure | Until::Load(_) => &beam.loading,
+        };
+        let mut stage = Stage::new(&beam.model, conditions.clone(), state, start)?;
+        let mut recorder = LoadRecorder {
+            beam,
+            observer: &mut *self.observer,
+            origin: &self.origin,
+            steps_before: self.steps,
+            to_the_end: stepping.to_the_end,
+            until,
+            path: Vec::new(),
+            best: 0,
+            fell: false,
+            peak: None,
+        };
+        let stop = stepping
+            .control()
+            .run(&mut stage, self.driver, &mut recorder);
+        self.work.push((*stage.counters(), *stage.times()));
+        let LoadRecorder { path, peak, .. } = recorder;
+        self.steps += path.len();
+        let last = path.last().map_or(0.0, |p| p.deflection);
+        let outcome = Outcome {
+            before: Vec::new(),
+            strengthened: None,
+            path,
+            peak,
+            last: Snapshot::of(&stage, last),
+            self_weight_kn: 2.0 * self.origin.reactions.iter().sum::<f64>() / 1e3,
+            work: Vec::new(),
+            stop: stop.map_err(AnalysisError::from),
+        };
+        Ok((outcome, stage.lambda()))
+    }
 }
 
 /// Reactions (N, half width) and deflection (mm) under self weight: the zero of all readings.
@@ -236,7 +399,9 @@ struct LoadRecorder<'a> {
     beam: &'a Beam,
     observer: &'a mut dyn Observer,
     origin: &'a Origin,
+    steps_before: usize,
     to_the_end: bool,
+    until: Until,
     path: Vec<PathPoint>,
     /// Index of the largest load so far, until the load has fallen from it.
     best: usize,
@@ -246,7 +411,10 @@ struct LoadRecorder<'a> {
 
 impl Recorder for LoadRecorder<'_> {
     fn iteration(&mut self, record: &IterationRecord) -> io::Result<()> {
-        self.observer.iteration(record)
+        self.observer.iteration(&IterationRecord {
+            step: self.steps_before + record.step,
+            ..*record
+        })
     }
 
     fn step(&mut self, view: &StepView<'_>) -> io::Result<Continue> {
@@ -266,8 +434,20 @@ impl Recorder for LoadRecorder<'_> {
             self.peak = Some(Snapshot::of(view.stage, now.deflection));
         }
         self.fell |= now.load < (1.0 - CAPACITY_FALL) * best.load;
-        if let Continue::Stop(reason) = self.observer.step(view, &reading)? {
+        let step = self.steps_before + view.step;
+        if let Continue::Stop(reason) = self.observer.step(view, step, &reading)? {
             return Ok(Continue::Stop(reason));
+        }
+        match self.until {
+            Until::Load(load) if now.load >= load => {
+                let reason = format!("the load reached {load} kN");
+                return Ok(Continue::Stop(reason));
+            }
+            Until::Unloaded if now.load <= 0.0 => {
+                return Ok(Continue::Stop("the load was taken off".into()));
+            }
+            Until::Unloaded => return Ok(Continue::Yes),
+            Until::Failure | Until::Load(_) => {}
         }
         if self.to_the_end {
             return Ok(Continue::Yes);

@@ -9,7 +9,7 @@ use miette::{MietteHandlerOpts, Report, miette};
 use crate::exit::Exit;
 use crate::input::{InputError, load, load_all};
 use crate::options::RunOptions;
-use crate::{list, output, point, run};
+use crate::{list, output, point, results, run};
 
 /// Reinforced-concrete beams of Khalifa (1999), simulated from first crack to failure.
 ///
@@ -44,6 +44,12 @@ enum Command {
         #[command(flatten)]
         options: RunOptions,
     },
+    /// Report on the stored results of all beams of a folder: tables, curves, accuracy; nothing is run
+    Report {
+        /// Folder of the results; the report goes there, too
+        #[arg(value_name = "DIR", default_value = "results")]
+        folder: PathBuf,
+    },
     /// Drive a material point and write strains, stresses and internal variables as CSV
     Point {
         /// Case file: a law and a program of strains and stresses
@@ -71,6 +77,7 @@ pub fn main() -> Exit {
         Command::List { json } => list_beams(json),
         Command::Check { files } => check(&files),
         Command::Run { beams, options } => run_beams(&beams, &options),
+        Command::Report { folder } => report(&folder),
         Command::Point { case, output } => drive_point(&case, output.as_deref()),
     };
     done.unwrap_or_else(|Shown(exit)| exit)
@@ -117,6 +124,20 @@ fn run_beams(beams: &[String], options: &RunOptions) -> Result<Exit, Shown> {
     })?;
     output::prepare(&options.output).map_err(|error| show(Exit::File, error))?;
     run::run_all(&specimens, options).map_err(|error| show(error.exit(), error))
+}
+
+/// What is wrong with stored results goes to standard error, and the code tells of it.
+fn report(folder: &Path) -> Result<Exit, Shown> {
+    let report = results::report::write(folder).map_err(|error| show(Exit::File, error))?;
+    for problem in &report.problems {
+        eprintln!("warning: {problem}");
+    }
+    print(report.line() + "\n")?;
+    Ok(if report.problems.is_empty() {
+        Exit::Done
+    } else {
+        Exit::File
+    })
 }
 
 fn drive_point(case: &Path, output: Option<&Path>) -> Result<Exit, Shown> {

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use crate::spec::{Mode, Series, Specimen};
+use crate::spec::{Face, Mode, Series, Specimen, Wrap};
 
 /// One line of the table.
 #[derive(Debug, Serialize)]
@@ -12,7 +12,7 @@ pub struct Row {
     name: String,
     title: String,
     series: Series,
-    strengthening: &'static str,
+    strengthening: String,
     concrete_strength_mpa: f64,
     /// Distances of the stirrups in the test span, one per zone with stirrups.
     stirrup_spacings_mm: Vec<f64>,
@@ -28,13 +28,48 @@ impl From<&Specimen> for Row {
             name: specimen.name.clone(),
             title: specimen.title.clone(),
             series: specimen.series,
-            strengthening: "none",
+            strengthening: strengthening(specimen),
             concrete_strength_mpa: specimen.concrete.reported_strength_mpa.get(),
             stirrup_spacings_mm: spacings.collect(),
             test_load_kn: specimen.test.as_ref().map(|t| t.load_kn.get()),
             mode_observed: specimen.test.as_ref().map(|t| t.mode),
         }
     }
+}
+
+/// The sheets in a few words, such as `U 90/0`: shape, then the angle of each ply on the side.
+fn strengthening(specimen: &Specimen) -> String {
+    let Some(sheets) = &specimen.sheets else {
+        return "none".into();
+    };
+    let words = |wrap: &Wrap| wrap_in_words(wrap, specimen.beam.height_mm.get());
+    let wraps: Vec<String> = sheets.wraps.iter().map(words).collect();
+    wraps.join(" + ")
+}
+
+/// Stretches shorter than the beam is high are called strips.
+fn wrap_in_words(wrap: &Wrap, height: f64) -> String {
+    let cover = |face| wrap.faces.iter().find(|cover| cover.face == face);
+    let shape = match [Face::Side, Face::Soffit, Face::Top].map(|face| cover(face).is_some()) {
+        [true, true, true] => "full wrap",
+        [true, true, false] => "U",
+        [true, false, false] => "sides",
+        _ => &wrap.name,
+    };
+    let main = cover(Face::Side).or(wrap.faces.first());
+    let angles = main.iter().flat_map(|cover| &cover.angles_deg);
+    let angles: Vec<String> = angles.map(|angle| angle.get().to_string()).collect();
+    let mut widths: Vec<f64> = wrap
+        .stretches
+        .iter()
+        .map(|s| s.x_to_mm.get() - s.x_from_mm.get())
+        .collect();
+    widths.sort_by(f64::total_cmp);
+    let strips = match widths.get(widths.len() / 2) {
+        Some(width) if *width < height => format!(", strips of {width} mm"),
+        _ => String::new(),
+    };
+    format!("{shape} {}{strips}", angles.join("/"))
 }
 
 const HEADER: [&str; 7] = [
@@ -75,7 +110,7 @@ impl Row {
         [
             self.name.clone(),
             format!("{:?}", self.series),
-            self.strengthening.into(),
+            self.strengthening.clone(),
             format!("{:.1}", self.concrete_strength_mpa),
             if spacings.is_empty() {
                 "none".into()

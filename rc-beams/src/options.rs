@@ -25,6 +25,22 @@ pub struct RunOptions {
     #[arg(long, value_enum, default_value_t)]
     pub law: Law,
 
+    /// Bond of the sheets
+    #[arg(long, value_enum, default_value_t)]
+    pub bond: Bond,
+
+    /// Fibres of the sheet on the soffit; without it, as in the preset
+    #[arg(long, value_enum)]
+    pub soffit_fibre: Option<SoffitFibre>,
+
+    /// Shear modulus of the sheets; without it, that of the preset
+    #[arg(long, value_enum)]
+    pub sheet_shear: Option<SheetShear>,
+
+    /// Run strengthened beams a second time with perfect bond, as evidence for the mode of failure
+    #[arg(long)]
+    pub counterfactual: bool,
+
     /// Solution of a step
     #[arg(long, value_enum, default_value_t)]
     pub driver: Driver,
@@ -54,9 +70,11 @@ pub struct RunOptions {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Preset {
-    /// The reported strength is the mean; full integration, dowel action of the bars
+    /// The reported strength is the mean; full integration, dowel action of the bars; sheets as given
     #[default]
-    Default,
+    Physical,
+    /// As physical, but with the sheets of the reference: fibres of the soffit along the beam, shear modulus E/2
+    Reference,
     /// The reported strength is characteristic (mean: 8 MPa more); reduced integration, no dowel action
     Characteristic,
 }
@@ -82,6 +100,39 @@ pub enum Law {
     Reference,
     /// Ottosen surface, softening by fracture energy
     Objective,
+}
+
+/// Bond of the sheets.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Bond {
+    /// Cohesive interface without thickness
+    #[default]
+    Cohesive,
+    /// No slip: the sheets share the nodes of the concrete
+    Perfect,
+    /// Two solid layers of adhesive with the cohesive interface between them
+    Adhesive,
+}
+
+/// Fibres of the sheet on the soffit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum SoffitFibre {
+    /// As the specimen says
+    Given,
+    /// Along the beam
+    Along,
+}
+
+/// Shear modulus of the sheets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum SheetShear {
+    /// As the specimen says
+    Given,
+    /// Half of Young's modulus along the fibres
+    Half,
 }
 
 /// Solution of a step.

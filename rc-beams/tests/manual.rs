@@ -4,9 +4,11 @@
 use rc_beams::spec::read;
 
 const MANUAL: &str = include_str!("../README.md");
-const BEAMS: [&str; 2] = [
+const BEAMS: [&str; 4] = [
     include_str!("../specimens/A-SO3-1.ron"),
     include_str!("../specimens/B-CO1.ron"),
+    include_str!("../specimens/B-CF4.ron"),
+    include_str!("../specimens/examples/A-SO3-4-staged.ron"),
 ];
 
 /// The cells of the rows of the table that give a field and a range of numbers.

@@ -94,16 +94,26 @@ impl DenseModel {
     }
 }
 
+/// Internal force (N) of all DOFs at a displacement (mm) from the virgin state.
+///
+/// # Errors
+///
+/// [`ModelError`].
+pub fn internal(model: &Model, u: &[f64]) -> Result<Vec<f64>, ModelError> {
+    let mut state = StateStore::new(model.elements());
+    let mut out = Assembled::default();
+    let ctx = EvaluationContext::new(Operator::None);
+    let mut assembler = Assembler::new(model, &Conditions::new(model));
+    assembler.evaluate(model, u, &mut state, &ctx, &mut out)?;
+    Ok(out.internal)
+}
+
 /// Energy (1/2) u . f(u) (N mm) of a displacement (mm) of a linear model.
 ///
 /// # Errors
 ///
 /// [`ModelError`].
 pub fn energy(model: &Model, u: &[f64]) -> Result<f64, ModelError> {
-    let mut state = StateStore::new(model.elements());
-    let mut out = Assembled::default();
-    let ctx = EvaluationContext::new(Operator::None);
-    let mut assembler = Assembler::new(model, &Conditions::new(model));
-    assembler.evaluate(model, u, &mut state, &ctx, &mut out)?;
-    Ok(0.5 * u.iter().zip(&out.internal).map(|(u, f)| u * f).sum::<f64>())
+    let force = internal(model, u)?;
+    Ok(0.5 * u.iter().zip(&force).map(|(u, f)| u * f).sum::<f64>())
 }

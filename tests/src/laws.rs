@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use fe_core::kinematics::{Axial, Kinematics, Solid};
+use fe_core::kinematics::{Axial, Kinematics, PlaneStress, Solid};
 use fe_core::material::{Material, MaterialError, PointContext, Response, StateVar};
 use fe_materials::Elastic;
-use nalgebra::{Matrix6, Vector1, Vector6};
+use nalgebra::{Matrix3, Matrix6, Vector1, Vector3, Vector6};
 
 /// Isotropic elasticity as elements take it.
 ///
@@ -126,5 +126,56 @@ impl Material<Solid> for Uniaxial {
             stress: total,
             tangent,
         })
+    }
+}
+
+/// A sheet with isotropic damage: stress (1 - d) D e, d = r/(r + r0), r the largest sqrt(e . D e) so far.
+#[derive(Debug, Clone, Copy)]
+pub struct DamagedSheet {
+    /// Elastic stiffness D (MPa).
+    pub stiffness: Matrix3<f64>,
+    /// r0 (sqrt MPa).
+    pub resistance: f64,
+}
+
+impl DamagedSheet {
+    fn integrity(&self, largest: f64) -> f64 {
+        self.resistance / (largest + self.resistance)
+    }
+}
+
+impl Material<PlaneStress> for DamagedSheet {
+    fn name(&self) -> &'static str {
+        "damaged sheet"
+    }
+
+    fn state_vars(&self) -> &[StateVar] {
+        const { &[StateVar::scalar("largest", "sqrt MPa")] }
+    }
+
+    fn update(
+        &self,
+        strain: &Vector3<f64>,
+        committed: &[f64],
+        trial: &mut [f64],
+        _ctx: &PointContext,
+    ) -> Result<Response<PlaneStress>, MaterialError> {
+        let elastic = self.stiffness * strain;
+        let now = elastic.dot(strain).sqrt();
+        trial[0] = now.max(committed[0]);
+        let integrity = self.integrity(trial[0]);
+        let mut tangent = integrity * self.stiffness;
+        if now > committed[0] {
+            let slope = integrity / ((now + self.resistance) * now);
+            tangent -= slope * elastic * elastic.transpose();
+        }
+        Ok(Response {
+            stress: integrity * elastic,
+            tangent,
+        })
+    }
+
+    fn free_energy(&self, strain: &Vector3<f64>, state: &[f64], _: &PointContext) -> Option<f64> {
+        Some(0.5 * self.integrity(state[0]) * strain.dot(&(self.stiffness * strain)))
     }
 }

@@ -10,6 +10,7 @@ pub mod dense;
 pub mod figure;
 pub mod laws;
 pub mod mesh;
+pub mod shell;
 pub mod solve;
 pub mod stress;
 pub mod strip;

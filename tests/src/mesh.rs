@@ -131,12 +131,30 @@ pub fn nodes_where(mesh: &Mesh, test: impl Fn([f64; 3]) -> bool) -> Vec<NodeId> 
 ///
 /// [`MeshError`] for a corner that does not exist or is not a number.
 pub fn quadratic(corners: &[[f64; 3]], cells: &[[usize; 8]]) -> Result<Mesh, MeshError> {
+    with_mid_sides(corners, cells, &EDGES, CellKind::Hex20)
+}
+
+/// Straight-sided 8-node quadrilaterals from the corners of 4-node ones, likewise.
+///
+/// # Errors
+///
+/// [`MeshError`] for a corner that does not exist or is not a number.
+pub fn quadratic_sheet(corners: &[[f64; 3]], cells: &[[usize; 4]]) -> Result<Mesh, MeshError> {
+    with_mid_sides(corners, cells, &EDGES[..4], CellKind::Quad8)
+}
+
+fn with_mid_sides<const CORNERS: usize>(
+    corners: &[[f64; 3]],
+    cells: &[[usize; CORNERS]],
+    edges: &[[usize; 2]],
+    kind: CellKind,
+) -> Result<Mesh, MeshError> {
     let mut nodes = corners.to_vec();
     let mut middle: HashMap<[usize; 2], NodeId> = HashMap::new();
-    let mut connectivity = Vec::with_capacity(20 * cells.len());
+    let mut connectivity = Vec::with_capacity((CORNERS + edges.len()) * cells.len());
     for cell in cells {
         connectivity.extend(cell);
-        for [a, b] in EDGES.map(|edge| edge.map(|c| cell[c])) {
+        for [a, b] in edges.iter().map(|edge| edge.map(|c| cell[c])) {
             let key = [a.min(b), a.max(b)];
             connectivity.push(*middle.entry(key).or_insert_with(|| {
                 let (p, q) = (corners[a], corners[b]);
@@ -146,7 +164,7 @@ pub fn quadratic(corners: &[[f64; 3]], cells: &[[usize; 8]]) -> Result<Mesh, Mes
         }
     }
     let mut mesh = Mesh::new(nodes)?;
-    mesh.add_block(BLOCK, CellKind::Hex20, connectivity)?;
+    mesh.add_block(BLOCK, kind, connectivity)?;
     Ok(mesh)
 }
 
@@ -156,21 +174,35 @@ pub fn quadratic(corners: &[[f64; 3]], cells: &[[usize; 8]]) -> Result<Mesh, Mes
 ///
 /// [`MeshError`] for a place that is not a number.
 pub fn quadrilaterals(n: usize, map: impl Fn(f64, f64) -> [f64; 2]) -> Result<Mesh, MeshError> {
-    let side = 2 * n + 1;
+    surface([n, n], |s, t| {
+        let [x, y] = map(s, t);
+        [x, y, 0.0]
+    })
+}
+
+/// 8-node quadrilaterals over the unit square, so many along its sides, every node moved to `map` of its place in space.
+///
+/// # Errors
+///
+/// [`MeshError`] for a place that is not a number.
+pub fn surface(cells: [usize; 2], map: impl Fn(f64, f64) -> [f64; 3]) -> Result<Mesh, MeshError> {
+    let sides = cells.map(|n| 2 * n + 1);
     let mut nodes = Vec::new();
-    let mut number = vec![0; side * side];
-    for j in 0..side {
-        for i in (0..side).filter(|i| i % 2 == 0 || j % 2 == 0) {
-            number[j * side + i] = nodes.len();
-            let [x, y] = map(i as f64 / (2 * n) as f64, j as f64 / (2 * n) as f64);
-            nodes.push([x, y, 0.0]);
+    let mut number = vec![0; sides[0] * sides[1]];
+    for j in 0..sides[1] {
+        for i in (0..sides[0]).filter(|i| i % 2 == 0 || j % 2 == 0) {
+            number[j * sides[0] + i] = nodes.len();
+            nodes.push(map(
+                i as f64 / (2 * cells[0]) as f64,
+                j as f64 / (2 * cells[1]) as f64,
+            ));
         }
     }
-    let mut connectivity = Vec::with_capacity(8 * n * n);
-    for j in (0..side - 1).step_by(2) {
-        for i in (0..side - 1).step_by(2) {
+    let mut connectivity = Vec::with_capacity(8 * cells[0] * cells[1]);
+    for j in (0..sides[1] - 1).step_by(2) {
+        for i in (0..sides[0] - 1).step_by(2) {
             let half_steps = quad8::NODES.map(|[s, t]| [(s + 1.0) as usize, (t + 1.0) as usize]);
-            connectivity.extend(half_steps.map(|[a, b]| number[(j + b) * side + i + a]));
+            connectivity.extend(half_steps.map(|[a, b]| number[(j + b) * sides[0] + i + a]));
         }
     }
     let mut mesh = Mesh::new(nodes)?;

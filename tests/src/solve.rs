@@ -100,8 +100,21 @@ pub fn run(
 ///
 /// [`SolverError`].
 pub fn solve(model: &Model, conditions: Conditions) -> Result<Solution, SolverError> {
+    solve_to(1e-9, model, conditions)
+}
+
+/// The same to another relative residual: rounding leaves more of it in thin shells.
+///
+/// # Errors
+///
+/// [`SolverError`].
+pub fn solve_to(
+    criterion: f64,
+    model: &Model,
+    conditions: Conditions,
+) -> Result<Solution, SolverError> {
     let control = StepControl {
-        criterion: 1e-9,
+        criterion,
         ..StepControl::new(1.0, 1.0)
     };
     let mut driver = NewtonRaphson::new(NewtonSettings::default());

@@ -6,16 +6,19 @@
 use std::sync::Arc;
 
 use fe_core::element::{Element, ElementSystem, EvaluationContext, PointSample};
-use fe_core::kinematics::{Axial, Solid};
+use fe_core::kinematics::{Axial, PlaneStress, Solid};
 use fe_core::material::{Material, Operator};
 use fe_core::mesh::{CellKind, Mesh};
 use fe_core::shape::{hex20, quad8};
 use fe_core::testing::{ElementCheck, check_element};
 use fe_elements::{
-    BandWidth, Bar, Dowel, Hex20, HexRule, Membrane8, Quad8, QuadRule, Truss3, embed,
+    BandWidth, Bar, Dowel, Hex20, HexRule, Layer, Membrane8, Quad8, QuadRule, Shell8, ShellSection,
+    Truss3, embed,
 };
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 use fe_materials::{Biso, Elastic, VonMises};
+use fe_tests::laws::DamagedSheet;
+use nalgebra::Matrix3;
 
 /// A distorted hexahedron of about 50 mm.
 fn hexahedron() -> [[f64; 3]; 20] {
@@ -132,16 +135,62 @@ fn saddle() -> [[f64; 3]; 8] {
     })
 }
 
+fn sheet_laws() -> [Arc<dyn Material<PlaneStress>>; 2] {
+    let damaged = DamagedSheet {
+        stiffness: Matrix3::new(31e3, 6e3, 1e3, 6e3, 25e3, 0.0, 1e3, 0.0, 12e3),
+        resistance: 1.0,
+    };
+    [
+        Arc::new(Elastic::new(30_000.0, 0.2).unwrap()),
+        Arc::new(damaged),
+    ]
+}
+
 /// Curved membranes in space with both rules.
 #[test]
 fn membranes() {
     let coords = saddle();
-    let law = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
+    for law in sheet_laws() {
+        for rule in [QuadRule::Reduced, QuadRule::Full] {
+            let nodes = std::array::from_fn(|a| a);
+            let axis = [0.0, 1.0, 1.0];
+            let name = law.name();
+            let element = Membrane8::new(nodes, &coords, 10.0, rule, axis, Arc::clone(&law));
+            let report = check_element(&element.unwrap(), &coords, &ElementCheck::new(0.05));
+            assert_eq!(report.expect(name).motions, 6);
+        }
+    }
+}
+
+/// Curved shells of three layers, with and without history, with both rules.
+#[test]
+fn layered_shells() {
+    let coords = saddle();
+    let [elastic, damaged] = sheet_laws();
+    let layer = |law: &Arc<dyn Material<PlaneStress>>, thickness_mm, angle_deg| Layer {
+        thickness_mm,
+        angle_deg,
+        law: Arc::clone(law),
+        shear_mpa: [12e3, 9e3],
+    };
+    let layers = vec![
+        layer(&damaged, 2.0, 30.0),
+        layer(&elastic, 3.0, 0.0),
+        layer(&damaged, 1.0, -80.0),
+    ];
     for rule in [QuadRule::Reduced, QuadRule::Full] {
         let nodes = std::array::from_fn(|a| a);
-        let axis = [0.0, 1.0, 1.0];
-        let element = Membrane8::new(nodes, &coords, 10.0, rule, axis, law.clone()).unwrap();
-        let report = check_element(&element, &coords, &ElementCheck::new(0.05)).unwrap();
+        let section = ShellSection::new(layers.clone());
+        let element = Shell8::new(nodes, &coords, &section, rule, [0.0, 1.0, 1.0]).unwrap();
+        let points = if rule == QuadRule::Full { 9 } else { 4 };
+        assert_eq!(element.state_len(), 2 * 2 * points);
+        let translations = [0.05; 3];
+        let rotations = [0.005; 3];
+        let check = ElementCheck {
+            amplitude: [translations, rotations].concat(),
+            ..ElementCheck::new(0.05)
+        };
+        let report = check_element(&element, &coords, &check).unwrap();
         assert_eq!(report.motions, 6);
     }
 }

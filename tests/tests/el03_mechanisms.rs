@@ -20,8 +20,9 @@ use fe_tests::dense::{DenseModel, energy};
 use fe_tests::laws::elastic;
 use fe_tests::mesh::{
     boxes, hexahedra, hexahedra_of, lines, mapped, membranes, nodes_where, oblique, quadrilaterals,
-    sheets,
+    sheets, surface,
 };
+use fe_tests::shell::{isotropic, shells};
 use fe_tests::solve::solve;
 
 fn block(cells: [usize; 3], size: [f64; 3], rule: HexRule) -> Model {
@@ -83,6 +84,28 @@ fn one_membrane() {
         let elements = membranes(&mesh, 1.0, rule, [1.0, 0.0, 0.0], &law).unwrap();
         let model = Model::new(mesh, elements);
         assert_eq!(zeros(&model, &Conditions::new(&model)), expected);
+    }
+}
+
+/// Shells, flat and curved: with 9 points the six rigid-body modes and no other; with 4 points one more in a single
+/// element, two if it is flat, none in two elements or more.
+#[test]
+fn shells_have_six_rigid_body_modes() {
+    for bend in [0.0, 3.0] {
+        for (rule, alone) in [
+            (QuadRule::Full, 6),
+            (QuadRule::Reduced, if bend == 0.0 { 8 } else { 7 }),
+        ] {
+            for (cells, expected) in [([1, 1], alone), ([2, 1], 6), ([4, 1], 6), ([2, 2], 6)] {
+                let map = |x, y| [50.0 * x, 40.0 * y + 6.0 * x * y, bend * x * (x - 2.0 * y)];
+                let mesh = surface(cells, map).unwrap();
+                let section = isotropic(30_000.0, 0.2, 10.0);
+                let elements = shells(&mesh, &section, rule, [1.0, 0.0, 0.0]).unwrap();
+                let model = Model::new(mesh, elements);
+                let found = zeros(&model, &Conditions::new(&model));
+                assert_eq!(found, expected, "{rule:?} {cells:?} {bend}");
+            }
+        }
     }
 }
 

@@ -72,6 +72,18 @@ impl Laminate {
         })
     }
 
+    /// The plies.
+    pub fn plies(&self) -> &[Ply] {
+        &self.plies
+    }
+
+    /// Stress along the fibres of each ply (MPa) at a membrane strain in the axes of the laminate.
+    pub fn fibre_stresses(&self, strain: &Vector3<f64>) -> impl Iterator<Item = f64> {
+        self.plies
+            .iter()
+            .map(move |ply| (ply.lamina.stiffness() * (transform(ply.angle_deg) * strain))[0])
+    }
+
     /// Thickness t of the stack (mm).
     pub fn thickness_mm(&self) -> f64 {
         self.plies.iter().map(|ply| ply.thickness_mm).sum()
@@ -173,6 +185,9 @@ mod tests {
             expected,
             max_relative = 1e-14
         );
+        let stresses: Vec<f64> = law.fibre_stresses(&strain).collect();
+        assert_relative_eq!(stresses[0], q[(0, 1)] * 5e-3, max_relative = 1e-9);
+        assert_relative_eq!(stresses[1], q[(0, 0)] * 5e-3, max_relative = 1e-14);
     }
 
     /// Plies at 0, 45, 90 and 135 degrees are isotropic in the plane: A66 = (A11 - A12)/2, no coupling.

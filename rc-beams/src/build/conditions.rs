@@ -116,14 +116,14 @@ impl Measures {
     }
 }
 
-/// Conditions of the two stages: self weight alone; then the imposed deflection of all loads under
-/// constant self weight.
+/// Conditions of the stages: self weight alone; the imposed deflection of all loads under constant self weight;
+/// the same with the loads moving up.
 pub(super) fn stages(
     specimen: &Specimen,
     model: &Model,
     measures: &Measures,
     weight: &[(NodeId, [f64; 3])],
-) -> Result<(Conditions, Conditions), BuildError> {
+) -> Result<[Conditions; 3], BuildError> {
     let mut held = Conditions::new(model);
     for node in nodes(model, |p| p[2].abs() < ON) {
         held.fix(model, node, Dof::Uz)?;
@@ -139,17 +139,19 @@ pub(super) fn stages(
             }
         }
     }
-    let (mut first, mut second) = (held.clone(), held);
+    let (mut first, mut down) = (held.clone(), held);
     for &(node, f) in weight {
         first.add_reference(model, node, Dof::Uy, f[1])?;
-        second.add_dead(model, node, Dof::Uy, f[1])?;
+        down.add_dead(model, node, Dof::Uy, f[1])?;
     }
+    let mut up = down.clone();
     for line in &measures.loads {
         for &node in &line.nodes {
-            second.prescribe(model, node, Dof::Uy, -1.0)?;
+            down.prescribe(model, node, Dof::Uy, -1.0)?;
+            up.prescribe(model, node, Dof::Uy, 1.0)?;
         }
     }
-    Ok((first, second))
+    Ok([first, down, up])
 }
 
 fn nodes(model: &Model, test: impl Fn(&[f64; 3]) -> bool) -> Vec<NodeId> {

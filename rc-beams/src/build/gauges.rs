@@ -1,19 +1,37 @@
-//! Strain gauges on bars: where the tests had them, as far as the bars of the model allow.
+//! Strain gauges on bars and sheets: where the tests had them, as far as the model allows.
 
+use fe_core::dof::Dof;
 use fe_core::element::ElementError;
+use fe_core::mesh::NodeId;
 use fe_core::model::Model;
+use fe_core::shape::quad8;
 use fe_core::state::StateStore;
+use nalgebra::Vector3;
 
-use super::{BarKind, BarRecord};
-use crate::spec::Specimen;
+use super::{BarKind, BarRecord, SheetRecord};
+use crate::spec::{Face, Specimen};
 
-/// A strain gauge on a bar, read at the integration points on either side of it.
+/// Points closer than this (mm) to a plane lie in it.
+const ON: f64 = 1e-6;
+
+/// A strain gauge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gauge {
     /// Name of the column.
     pub name: String,
-    /// Element, point and weight of the points it interpolates between.
-    points: Vec<(usize, usize, f64)>,
+    kind: Kind,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Kind {
+    /// On a bar: element, point and weight of the integration points on either side of it.
+    Bar(Vec<(usize, usize, f64)>),
+    /// On a sheet: factors (1/mm) of the displacements that give the mean strain over its length, relative to
+    /// the strain when the sheet was bonded.
+    Sheet {
+        factors: Vec<(usize, f64)>,
+        bonded_at: f64,
+    },
 }
 
 /// An integration point of a bar at a share `at` of its length.
@@ -31,8 +49,14 @@ impl Gauge {
     ///
     /// [`ElementError`].
     pub fn read(&self, model: &Model, u: &[f64], state: &StateStore) -> Result<f64, ElementError> {
+        let points = match &self.kind {
+            Kind::Bar(points) => points,
+            Kind::Sheet { factors, bonded_at } => {
+                return Ok(factors.iter().map(|&(d, f)| f * u[d]).sum::<f64>() - bonded_at);
+            }
+        };
         let mut strain = 0.0;
-        for &(element, point, weight) in &self.points {
+        for &(element, point, weight) in points {
             let local = model.gather(element, u);
             let mut i = 0;
             model.elements()[element].sample(&local, state.committed(element), &mut |s| {
@@ -91,13 +115,76 @@ impl Gauge {
             (Some(p), _) | (None, Some(p)) => vec![(p.element, p.point, 1.0)],
             (None, None) => return None,
         };
-        Some(Self { name, points })
+        let kind = Kind::Bar(points);
+        Some(Self { name, kind })
+    }
+
+    /// A gauge on the sheets at the points `ends` (mm), read along the line between them.
+    fn between(
+        ends: [[f64; 3]; 2],
+        name: String,
+        cells: &[[NodeId; 8]],
+        model: &Model,
+    ) -> Option<Self> {
+        let [a, b] = ends.map(Vector3::from);
+        let length = (b - a).norm();
+        let along = (b - a) / length;
+        let mut factors = Vec::new();
+        for (end, sign) in [(a, -1.0), (b, 1.0)] {
+            let (nodes, values) = locate(end, cells, model)?;
+            for (node, value) in nodes.into_iter().zip(values) {
+                for (k, dof) in Dof::DISPLACEMENTS.into_iter().enumerate() {
+                    let factor = sign * value * along[k] / length;
+                    factors.push((model.dofs().index(node, dof)?, factor));
+                }
+            }
+        }
+        let kind = Kind::Sheet {
+            factors,
+            bonded_at: 0.0,
+        };
+        Some(Self { name, kind })
+    }
+
+    /// Whether it is on a sheet.
+    pub const fn is_on_sheet(&self) -> bool {
+        matches!(self.kind, Kind::Sheet { .. })
+    }
+
+    /// Makes the strain of a sheet at `u` its zero: the sheet is bonded in that state.
+    pub fn zero_at(&mut self, u: &[f64]) {
+        if let Kind::Sheet { factors, bonded_at } = &mut self.kind {
+            *bonded_at = factors.iter().map(|&(d, f)| f * u[d]).sum();
+        }
     }
 }
 
+/// Cell of rectangular sheet that holds a point, and its shape functions there.
+fn locate(
+    point: Vector3<f64>,
+    cells: &[[NodeId; 8]],
+    model: &Model,
+) -> Option<([NodeId; 8], [f64; 8])> {
+    const SLACK: f64 = 1.0 + 1e-9;
+    cells.iter().find_map(|&nodes| {
+        let x = |a: usize| Vector3::from(model.mesh().nodes()[nodes[a]]);
+        let (e1, e2) = (x(1) - x(0), x(3) - x(0));
+        let natural =
+            |edge: Vector3<f64>| 2.0 * (point - x(0)).dot(&edge) / edge.norm_squared() - 1.0;
+        let xi = [natural(e1), natural(e2)];
+        let off = (point - x(0)).dot(&e1.cross(&e2).normalize()).abs();
+        (off < ON && xi.iter().all(|c| c.abs() <= SLACK)).then(|| (nodes, quad8::shape(xi).0))
+    })
+}
+
 /// Gauges of a specimen: every stirrup of the test span at mid-height; the longitudinal bars at the loads and
-/// in the middle of the test span.
-pub(super) fn gauges(specimen: &Specimen, model: &Model, bars: &[BarRecord]) -> Vec<Gauge> {
+/// in the middle of the test span; those on the sheets as the specimen says.
+pub(super) fn gauges(
+    specimen: &Specimen,
+    model: &Model,
+    bars: &[BarRecord],
+    sheets: Option<&SheetRecord>,
+) -> Vec<Gauge> {
     let span = &specimen.measuring.test_span;
     let (from, to) = (span.x_from_mm.get(), span.x_to_mm.get());
     let middle = 0.5 * specimen.beam.height_mm.get();
@@ -119,6 +206,27 @@ pub(super) fn gauges(specimen: &Specimen, model: &Model, bars: &[BarRecord]) -> 
                 }
             }
             BarKind::StirrupLeg(_) | BarKind::Tie => {}
+        }
+    }
+    if let Some(sheets) = sheets {
+        let cells: Vec<[NodeId; 8]> = sheets
+            .cells
+            .iter()
+            .filter(|cell| cell.face == Face::Side)
+            .map(|cell| {
+                let nodes = model.elements()[cell.membrane].nodes();
+                std::array::from_fn(|a| nodes[a])
+            })
+            .collect();
+        // Over layers of adhesive the sheet lies outside the face.
+        let lifted = cells.first().map(|cell| model.mesh().nodes()[cell[0]][2]);
+        for g in &specimen.measuring.sheet_gauges {
+            let (s, c) = g.angle_deg.get().to_radians().sin_cos();
+            let half = 0.5 * g.gauge_length_mm.get();
+            let z = lifted.unwrap_or(g.z_mm.get());
+            let ends = [-half, half].map(|r| [g.x_mm.get() + r * c, g.y_mm.get() + r * s, z]);
+            let name = g.name.replace(' ', "_");
+            gauges.extend(Gauge::between(ends, name, &cells, model));
         }
     }
     gauges

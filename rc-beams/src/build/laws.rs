@@ -39,7 +39,7 @@ fn properties(specimen: &Specimen, preset: Preset) -> Result<ConcreteScalars, Ma
     let reported = &specimen.concrete;
     let strength = reported.reported_strength_mpa.get();
     match preset {
-        Preset::Default => ConcreteScalars::from_mean(strength),
+        Preset::Physical | Preset::Reference => ConcreteScalars::from_mean(strength),
         Preset::Characteristic => Ok(ConcreteScalars {
             fctm_mpa: reported.reported_tensile_mpa.get(),
             ..ConcreteScalars::from_characteristic(strength)?

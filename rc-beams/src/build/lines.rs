@@ -1,5 +1,8 @@
 //! Grid lines: element faces on plate edges and centres, elements spread over what lies between.
 
+/// Lines closer than this (mm) are one.
+const SAME: f64 = 1e-6;
+
 /// An interval of the axis that must be meshed with its own even number of elements: a plate or stub.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patch {
@@ -9,41 +12,39 @@ pub struct Patch {
     pub length: f64,
 }
 
-/// Grid lines from 0 to `length` with `elements` cells: two cells in every plate no longer than two
-/// cells of average size (an even number by length in longer ones), the rest shared out by length with the
-/// largest remainders.
+/// Grid lines from 0 to `length` with `elements` cells, on the edges and centres of all patches and on all
+/// `edges`. Patches have one cell in each half no longer than 1.5 cells of average size (more in longer ones,
+/// the same number in both halves), cut further by `edges`; the rest is shared out by length with the largest
+/// remainders, at least one cell between any two lines.
 ///
 /// Returns `None` when there are too few elements for the patches and the gaps between them.
-pub fn axis_lines(length: f64, patches: &[Patch], elements: usize) -> Option<Vec<f64>> {
-    let mut edges = vec![0.0];
-    let mut is_patch = Vec::new();
+pub fn axis_lines(
+    length: f64,
+    patches: &[Patch],
+    edges: &[f64],
+    elements: usize,
+) -> Option<Vec<f64>> {
+    let ends = |p: &Patch| [p.centre - 0.5 * p.length, p.centre + 0.5 * p.length];
+    let mut breaks: Vec<f64> = vec![0.0, length];
     for p in patches {
-        let (low, high) = (p.centre - 0.5 * p.length, p.centre + 0.5 * p.length);
-        if low - edges[edges.len() - 1] > 1e-9 {
-            edges.push(low);
-            is_patch.push(false);
-        }
-        edges.push(high);
-        is_patch.push(true);
+        breaks.extend(ends(p));
+        breaks.push(p.centre);
     }
-    if length - edges[edges.len() - 1] > 1e-9 {
-        edges.push(length);
-        is_patch.push(false);
-    }
+    breaks.extend(edges);
+    breaks.sort_by(f64::total_cmp);
+    breaks.dedup_by(|a, b| (*a - *b).abs() < SAME);
+    let inside = |x: f64| patches.iter().any(|p| ends(p)[0] < x && x < ends(p)[1]);
     let average = length / elements as f64;
-    let spans: Vec<f64> = edges.windows(2).map(|w| w[1] - w[0]).collect();
-    let mut cells: Vec<usize> = spans
-        .iter()
-        .zip(&is_patch)
-        .map(|(s, &patch)| {
-            if patch {
-                2 * ((s / average / 2.0).round() as usize).max(1)
-            } else {
-                0
-            }
-        })
-        .collect();
-    let gaps: Vec<usize> = (0..spans.len()).filter(|&i| !is_patch[i]).collect();
+    let spans: Vec<f64> = breaks.windows(2).map(|w| w[1] - w[0]).collect();
+    let mut cells: Vec<usize> = vec![0; spans.len()];
+    let mut gaps = Vec::new();
+    for (i, w) in breaks.windows(2).enumerate() {
+        if inside(0.5 * (w[0] + w[1])) {
+            cells[i] = ((spans[i] / average).round() as usize).max(1);
+        } else {
+            gaps.push(i);
+        }
+    }
     let free: f64 = gaps.iter().map(|&i| spans[i]).sum();
     let rest = elements.checked_sub(cells.iter().sum())?;
     if rest < gaps.len() {
@@ -73,7 +74,7 @@ pub fn axis_lines(length: f64, patches: &[Patch], elements: usize) -> Option<Vec
         }
     }
     let mut lines = vec![0.0];
-    for (w, &n) in edges.windows(2).zip(&cells) {
+    for (w, &n) in breaks.windows(2).zip(&cells) {
         lines.extend((1..=n).map(|k| w[0] + (w[1] - w[0]) * k as f64 / n as f64));
     }
     Some(lines)
@@ -99,7 +100,7 @@ mod tests {
                 length: 100.0,
             })
             .into();
-        let lines = axis_lines(3050.0, &patches, 60).unwrap();
+        let lines = axis_lines(3050.0, &patches, &[], 60).unwrap();
         assert_eq!(lines.len(), 61);
         for (line, index) in [
             (560.0, 11),
@@ -110,8 +111,23 @@ mod tests {
         ] {
             assert!((lines[index] - line).abs() < 1e-9);
         }
-        assert_eq!(axis_lines(3050.0, &patches, 32).unwrap().len(), 33);
-        assert_eq!(axis_lines(3050.0, &patches, 88).unwrap().len(), 89);
-        assert!(axis_lines(3050.0, &patches, 12).is_none());
+        assert_eq!(axis_lines(3050.0, &patches, &[], 32).unwrap().len(), 33);
+        assert_eq!(axis_lines(3050.0, &patches, &[], 88).unwrap().len(), 89);
+        assert!(axis_lines(3050.0, &patches, &[], 12).is_none());
+    }
+
+    /// Edges of sheets are lines too, in gaps and within plates.
+    #[test]
+    fn edges_become_lines() {
+        let patch = Patch {
+            centre: 100.0,
+            length: 100.0,
+        };
+        let lines = axis_lines(300.0, &[patch], &[20.0, 90.0, 100.0, 160.0], 8).unwrap();
+        assert_eq!(
+            lines,
+            [0.0, 20.0, 50.0, 90.0, 100.0, 150.0, 160.0, 230.0, 300.0]
+        );
+        assert!(axis_lines(300.0, &[patch], &[20.0, 90.0, 100.0, 160.0], 6).is_none());
     }
 }

@@ -5,7 +5,7 @@ use fe_core::mesh::Mesh;
 
 use super::lines::{Patch, axis_lines, equal_lines};
 use super::{BuildError, ModelSettings};
-use crate::spec::Specimen;
+use crate::spec::{Face, Specimen};
 
 /// Block of concrete in zones with or without stirrups.
 pub(super) const fn concrete_block(stirrups: bool) -> &'static str {
@@ -31,15 +31,18 @@ pub(super) fn mesh(specimen: &Specimen, settings: &ModelSettings) -> Result<Mesh
     let [nx, ny, nz] = settings.mesh;
     let (length, height) = (specimen.beam.length_mm.get(), specimen.beam.height_mm.get());
     let patches = patches(specimen);
-    let xs = axis_lines(length, &patches, nx).ok_or_else(|| BuildError::TooFewElements {
-        specimen: specimen.name.clone(),
-        nx,
-        example: (nx + 1..4 * nx + 64)
-            .find(|&n| axis_lines(length, &patches, n).is_some())
-            .unwrap_or(60),
-    })?;
-    let ys = equal_lines(0.0, height, ny);
-    let zs = equal_lines(0.0, specimen.half_width_mm(), nz);
+    let lines = |axis: usize, length: f64, patches: &[Patch], n: usize| {
+        let edges = &sheet_edges(specimen)[axis];
+        axis_lines(length, patches, edges, n).ok_or_else(|| BuildError::TooFewElements {
+            specimen: specimen.name.clone(),
+            along: ["along", "up", "across"][axis],
+            elements: n,
+            least: least(n, |n| axis_lines(length, patches, edges, n).is_some()),
+        })
+    };
+    let xs = lines(0, length, &patches, nx)?;
+    let ys = lines(1, height, &[], ny)?;
+    let zs = lines(2, specimen.half_width_mm(), &[], nz)?;
     let mut grid = GridBuilder::new();
     for column in xs.windows(2) {
         let centre = 0.5 * (column[0] + column[1]);
@@ -66,6 +69,50 @@ pub(super) fn mesh(specimen: &Specimen, settings: &ModelSettings) -> Result<Mesh
         grid.add_box(&load_plate(i), &own, &plate, &zs);
     }
     Ok(grid.finish()?)
+}
+
+/// Elements along and over the height of a bare beam.
+const BARE: [usize; 2] = [60, 4];
+/// Elements over the height of a strengthened beam: the load a bond transfers is too high where elements along
+/// the fibre are long.
+const STRENGTHENED: usize = 6;
+
+/// Mesh of a specimen that none is asked for: 60 x 4 x 1, with sheets 6 over the height and as many along the
+/// beam as their edges need.
+pub fn default_mesh(specimen: &Specimen) -> [usize; 3] {
+    let [nx, ny] = BARE;
+    if specimen.sheets.is_none() {
+        return [nx, ny, 1];
+    }
+    let patches = patches(specimen);
+    let edges = sheet_edges(specimen);
+    let along = |n| axis_lines(specimen.beam.length_mm.get(), &patches, &edges[0], n).is_some();
+    let up = |n| axis_lines(specimen.beam.height_mm.get(), &[], &edges[1], n).is_some();
+    let across = |n| axis_lines(specimen.half_width_mm(), &[], &edges[2], n).is_some();
+    [least(nx, along), least(STRENGTHENED, up), least(1, across)]
+}
+
+/// The least number from `n` on that will do; every number of lines does in the end.
+fn least(n: usize, will_do: impl Fn(usize) -> bool) -> usize {
+    (n..n + MOST_LINES).find(|&n| will_do(n)).unwrap_or(n)
+}
+
+/// More lines than plates and sheets of any beam have.
+const MOST_LINES: usize = 1000;
+
+/// Edges of the sheets (mm) along x, y and z.
+fn sheet_edges(specimen: &Specimen) -> [Vec<f64>; 3] {
+    let mut edges = [vec![], vec![], vec![]];
+    for wrap in specimen.sheets.iter().flat_map(|s| &s.wraps) {
+        for stretch in &wrap.stretches {
+            edges[0].extend([stretch.x_from_mm.get(), stretch.x_to_mm.get()]);
+        }
+        for cover in &wrap.faces {
+            let axis = if cover.face == Face::Side { 1 } else { 2 };
+            edges[axis].extend([cover.from_mm.get(), cover.to_mm.get()]);
+        }
+    }
+    edges
 }
 
 /// Whether the zone at `x` (mm) has stirrups.

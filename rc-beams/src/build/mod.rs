@@ -8,39 +8,49 @@ mod mesh;
 mod reinforcement;
 mod settings;
 #[cfg(test)]
+mod sheet_tests;
+mod sheets;
+#[cfg(test)]
 mod tests;
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
+use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError};
 use fe_core::material::MaterialError;
 use fe_core::mesh::{MeshError, NodeId};
 use fe_core::model::{Conditions, Model, ModelError};
-use fe_elements::{BandWidth, Hex20, HexRule, loads};
+use fe_core::state::StateStore;
+use fe_elements::{BandWidth, Hex20, HexRule, Installed, loads};
 
 pub use conditions::{Line, Measures};
 pub use gauges::Gauge;
+pub use mesh::default_mesh;
 pub use reinforcement::{BarKind, BarRecord};
 pub use settings::ModelSettings;
+pub use sheets::{SheetCell, SheetRecord, Zone};
 
-use crate::spec::Specimen;
+use crate::spec::{Sheets, Specimen};
 
 /// Why a model could not be built.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum BuildError {
-    /// Too few elements along the beam.
+    /// Too few elements in one direction.
     #[error(
-        "mesh: {nx} elements along the beam are too few for the plates of {specimen}; give more, for \
-         example --mesh {example}x4x1"
+        "mesh: {elements} elements {along} the beam are too few for the plates and sheets of {specimen}; \
+         give {least} or more"
     )]
     TooFewElements {
         /// Specimen.
         specimen: String,
+        /// Direction: along, up or across.
+        along: &'static str,
         /// Elements asked for.
-        nx: usize,
-        /// A number that works.
-        example: usize,
+        elements: usize,
+        /// The least number that will do.
+        least: usize,
     },
     /// The mesh is impossible.
     #[error(transparent)]
@@ -73,8 +83,14 @@ pub struct Beam {
     pub model: Model,
     /// Elements of concrete, stubs included.
     pub concrete: Range<usize>,
+    /// Crack-band width of every element of concrete (mm).
+    pub bands: Vec<f64>,
+    /// Elements of the plates.
+    pub plates: Range<usize>,
     /// Bars and the elements they were cut into.
     pub bars: Vec<BarRecord>,
+    /// Sheets, if any.
+    pub sheets: Option<SheetRecord>,
     /// What is measured.
     pub measures: Measures,
     /// Strain gauges.
@@ -83,32 +99,87 @@ pub struct Beam {
     pub weight: Conditions,
     /// Stage 2: the load factor is the imposed deflection of the loads (mm).
     pub loading: Conditions,
+    /// The same with the loads moving up.
+    pub unloading: Conditions,
 }
 
 impl Beam {
-    /// Builds the half model of a specimen.
+    /// Builds the half model of a specimen, with the sheets bonded before it is loaded.
     ///
     /// # Errors
     ///
     /// [`BuildError`].
     pub fn new(specimen: &Specimen, settings: &ModelSettings) -> Result<Self, BuildError> {
-        let mesh = mesh::mesh(specimen, settings)?;
+        Self::build(specimen, settings, specimen.sheets.as_ref(), None)
+    }
+
+    /// Builds the half model without its sheets, on the mesh it has with them.
+    ///
+    /// # Errors
+    ///
+    /// [`BuildError`].
+    pub fn bare(specimen: &Specimen, settings: &ModelSettings) -> Result<Self, BuildError> {
+        Self::build(specimen, settings, None, None)
+    }
+
+    /// Bonds the sheets of a specimen to its [`bare`](Self::bare) model displaced by `u`, free of stress in
+    /// that state. Returns the model, the displacement of all its DOFs in that state, and the states of its
+    /// elements.
+    ///
+    /// # Errors
+    ///
+    /// [`BuildError`].
+    pub fn strengthened(
+        &self,
+        specimen: &Specimen,
+        settings: &ModelSettings,
+        (u, state): (&[f64], &StateStore),
+    ) -> Result<(Self, Vec<f64>, StateStore), BuildError> {
+        let dofs = self.model.dofs();
+        let displaced = |node: NodeId| {
+            Dof::DISPLACEMENTS.map(|dof| dofs.index(node, dof).map_or(0.0, |d| u[d]))
+        };
+        let sheets = specimen.sheets.as_ref();
+        let mut beam = Self::build(specimen, settings, sheets, Some(&displaced))?;
+        let mut below: BTreeMap<NodeId, NodeId> = BTreeMap::new();
+        if let Some(sheets) = &beam.sheets {
+            below.extend(sheets.nodes.iter().map(|&(below, above)| (above, below)));
+        }
+        let start: Vec<f64> = (0..beam.model.dofs().len())
+            .map(|d| {
+                let (node, dof) = beam.model.dofs().owner(d);
+                let node = below.get(&node).copied().unwrap_or(node);
+                dofs.index(node, dof).map_or(0.0, |d| u[d])
+            })
+            .collect();
+        let mut states = StateStore::new(beam.model.elements());
+        states.adopt(state);
+        for gauge in &mut beam.gauges {
+            gauge.zero_at(&start);
+        }
+        Ok((beam, start, states))
+    }
+
+    fn build(
+        specimen: &Specimen,
+        settings: &ModelSettings,
+        sheets: Option<&Sheets>,
+        displaced: Option<&Displaced<'_>>,
+    ) -> Result<Self, BuildError> {
+        let mut mesh = mesh::mesh(specimen, settings)?;
         let concrete_laws = laws::concrete_laws(specimen, settings, &mesh)?;
         let mut elements: Vec<Box<dyn Element>> = Vec::new();
         let mut weight = Vec::new();
+        let mut bands = Vec::new();
         let density = laws::weight_density(specimen);
         let band = settings.band_width();
         for (name, law) in &concrete_laws {
             for (nodes, coords) in cells(&mesh, name) {
                 weight.extend(loads::body_force(&nodes, &coords, [0.0, -density, 0.0]));
-                let law = law.clone();
-                elements.push(Box::new(Hex20::new(
-                    nodes,
-                    &coords,
-                    settings.integration,
-                    law,
-                    band,
-                )?));
+                let (law, rule) = (law.clone(), settings.integration);
+                let element = Hex20::new(nodes, &coords, rule, law, band)?;
+                bands.push(element.band_width());
+                elements.push(Box::new(element));
             }
         }
         let concrete = 0..elements.len();
@@ -124,6 +195,7 @@ impl Beam {
                 )?));
             }
         }
+        let plates = concrete.end..elements.len();
         let hosts: Vec<&str> = concrete_laws.iter().map(|(name, _)| *name).collect();
         let mut bars = Vec::new();
         for (bar, record) in reinforcement::bars(specimen, settings)? {
@@ -135,20 +207,58 @@ impl Beam {
                 ..record
             });
         }
+        let sheets = match sheets {
+            Some(sheets) => {
+                let carrier = (&mut mesh, hosts.as_slice());
+                let (record, added) = sheets::lay(specimen, sheets, settings, carrier)?;
+                let first = elements.len();
+                for element in added {
+                    elements.push(match displaced {
+                        Some(displaced) => install(element, &record, displaced)?,
+                        None => element,
+                    });
+                }
+                Some(record.from(first))
+            }
+            None => None,
+        };
         let model = Model::new(mesh, elements);
         let measures = Measures::new(specimen, &model)?;
-        let (weight, loading) = conditions::stages(specimen, &model, &measures, &weight)?;
-        let gauges = gauges::gauges(specimen, &model, &bars);
+        let [weight, loading, unloading] =
+            conditions::stages(specimen, &model, &measures, &weight)?;
+        let gauges = gauges::gauges(specimen, &model, &bars, sheets.as_ref());
         Ok(Self {
             model,
             concrete,
+            bands,
+            plates,
             bars,
+            sheets,
             measures,
             gauges,
             weight,
             loading,
+            unloading,
         })
     }
+}
+
+/// Displacement (mm) of a node of the bare model.
+type Displaced<'a> = dyn Fn(NodeId) -> [f64; 3] + 'a;
+
+/// Installs an element of sheet, adhesive or interface free of stress over displaced concrete.
+fn install(
+    element: Box<dyn Element>,
+    record: &SheetRecord,
+    displaced: &Displaced<'_>,
+) -> Result<Box<dyn Element>, ElementError> {
+    let below = |node: NodeId| {
+        let pair = record.nodes.iter().find(|(_, above)| *above == node);
+        pair.map_or(node, |(below, _)| *below)
+    };
+    let origin = element.nodes().iter().flat_map(|&n| displaced(below(n)));
+    let origin = origin.collect();
+    Ok(Box::new(Installed::new(element, origin)?))
 }
 
 /// Nodes and coordinates (mm) of the cells of a block; none for an unknown name.

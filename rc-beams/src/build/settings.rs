@@ -2,7 +2,8 @@
 
 use fe_elements::{BandWidth, HexRule};
 
-use crate::options::{Law, Preset};
+use super::default_mesh;
+use crate::options::{Bond, Law, Preset, SheetShear, SoffitFibre};
 use crate::spec::Specimen;
 
 /// Settings of a model.
@@ -20,22 +21,35 @@ pub struct ModelSettings {
     pub dowel: bool,
     /// Floor of the shear factor of open cracks (-).
     pub shear_floor: f64,
+    /// Bond of the sheets.
+    pub bond: Bond,
+    /// Fibres of the sheet on the soffit.
+    pub soffit_fibre: SoffitFibre,
+    /// Shear modulus of the sheets.
+    pub sheet_shear: SheetShear,
 }
 
 impl ModelSettings {
-    /// The settings of a preset on the reference mesh 60 x 4 x 1.
-    pub const fn new(preset: Preset) -> Self {
+    /// The settings of a preset on the mesh that suits a specimen, see [`default_mesh`].
+    pub fn new(preset: Preset, specimen: &Specimen) -> Self {
         let (integration, dowel, shear_floor) = match preset {
-            Preset::Default => (HexRule::Full, true, 1e-4),
+            Preset::Physical | Preset::Reference => (HexRule::Full, true, 1e-4),
             Preset::Characteristic => (HexRule::Reduced, false, 1e-3),
+        };
+        let (soffit_fibre, sheet_shear) = match preset {
+            Preset::Reference => (SoffitFibre::Along, SheetShear::Half),
+            Preset::Physical | Preset::Characteristic => (SoffitFibre::Given, SheetShear::Given),
         };
         Self {
             preset,
-            mesh: [60, 4, 1],
+            mesh: default_mesh(specimen),
             integration,
             law: Law::FixedCrack,
             dowel,
             shear_floor,
+            bond: Bond::Cohesive,
+            soffit_fibre,
+            sheet_shear,
         }
     }
 

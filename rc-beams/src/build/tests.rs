@@ -16,7 +16,8 @@ fn specimen(name: &str) -> Specimen {
 }
 
 fn beam(name: &str) -> Beam {
-    Beam::new(&specimen(name), &ModelSettings::new(Preset::Default)).unwrap()
+    let specimen = specimen(name);
+    Beam::new(&specimen, &ModelSettings::new(Preset::Physical, &specimen)).unwrap()
 }
 
 struct Silent;
@@ -44,14 +45,15 @@ fn the_supports_carry_the_weight() {
     assert!((beam.measures.load_kn(&reactions) - 3.477).abs() < 1e-3);
 }
 
-/// Every specimen builds on the reference mesh: 240 elements of concrete (more with a stub), bars of the full
-/// length cut once at every face, a gauge on every stirrup of the test span.
+/// Every specimen builds on its mesh: all elements of concrete (more with a stub), bars of the full length cut
+/// once at every face, a gauge on every stirrup of the test span and wherever the specimen has one on its sheets.
 #[test]
 fn every_specimen_builds() {
     for (name, _) in BUILTIN {
         let (specimen, beam) = (specimen(name), beam(name));
         let stubs = specimen.supports.iter().any(|s| s.stub.is_some());
-        assert_eq!(beam.concrete.len() > 240, stubs, "{name}");
+        let [nx, ny, nz] = super::default_mesh(&specimen);
+        assert_eq!(beam.concrete.len() > nx * ny * nz, stubs, "{name}");
         for bar in &beam.bars {
             let [a, b] = bar.ends;
             let expected: f64 = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f64>().sqrt();
@@ -82,7 +84,12 @@ fn every_specimen_builds() {
         };
         let stirrups = beam.bars.iter().filter(inside).count();
         let longitudinal = specimen.bars.len() * (specimen.loads.len() + 1);
-        assert_eq!(beam.gauges.len(), stirrups + longitudinal, "{name}");
+        let sheets = specimen.measuring.sheet_gauges.len();
+        assert_eq!(
+            beam.gauges.len(),
+            stirrups + longitudinal + sheets,
+            "{name}"
+        );
     }
 }
 
@@ -98,17 +105,18 @@ fn the_shear_force_of_series_b_is_read_from_reactions() {
 /// A mesh that cannot hold the plates is refused with a number of elements that can.
 #[test]
 fn too_few_elements_are_refused() {
+    let specimen = specimen("A-SO3-1");
     let settings = ModelSettings {
         mesh: [9, 4, 1],
-        ..ModelSettings::new(Preset::Default)
+        ..ModelSettings::new(Preset::Physical, &specimen)
     };
-    let error = Beam::new(&specimen("A-SO3-1"), &settings).unwrap_err();
-    let BuildError::TooFewElements { example, .. } = error else {
+    let error = Beam::new(&specimen, &settings).unwrap_err();
+    let BuildError::TooFewElements { least, .. } = error else {
         panic!("{error}");
     };
     let settings = ModelSettings {
-        mesh: [example, 4, 1],
+        mesh: [least, 4, 1],
         ..settings
     };
-    assert!(Beam::new(&specimen("A-SO3-1"), &settings).is_ok());
+    assert!(Beam::new(&specimen, &settings).is_ok());
 }

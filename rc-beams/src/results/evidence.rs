@@ -18,6 +18,13 @@ pub struct ConcretePoint {
     pub crushing: f64,
 }
 
+impl ConcretePoint {
+    /// Angle between crack normal and beam axis (degrees); 90 without a crack.
+    pub fn inclination_deg(&self) -> f64 {
+        self.crack_normal[0].abs().min(1.0).acos().to_degrees()
+    }
+}
+
 impl From<&PointSample<'_>> for ConcretePoint {
     fn from(sample: &PointSample<'_>) -> Self {
         Self {

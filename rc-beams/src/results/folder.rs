@@ -9,12 +9,18 @@ use tempfile::{Builder, NamedTempFile};
 use super::error::ResultsError;
 use crate::output::{self, OutputError};
 
-/// Files written at the end of a run; those of an earlier run would contradict the tables of this one.
-const WRITTEN_AT_THE_END: [&str; 5] = [
+/// Files written at the end of a run or not by every run; those of an earlier run would contradict the
+/// tables of this one.
+const NOT_STARTED_ANEW: [&str; 10] = [
     "summary.json",
     "curve.svg",
     "curve.png",
     "crack.svg",
+    "slip.svg",
+    "sheet.svg",
+    "sheet_map.csv",
+    "sheets.csv",
+    "events.csv",
     "fields.pvd",
 ];
 
@@ -36,7 +42,7 @@ impl Folder {
             path: root.join(name),
         };
         output::prepare(&folder.path)?;
-        for file in WRITTEN_AT_THE_END {
+        for file in NOT_STARTED_ANEW {
             remove_if_there(&folder.path.join(file)).map_err(|e| folder.error(file, e))?;
         }
         for entry in fs::read_dir(&folder.path).map_err(|e| folder.error("", e))? {
@@ -47,6 +53,16 @@ impl Folder {
             }
         }
         Ok(folder)
+    }
+
+    /// A folder that is there, with all that it holds; tries to write there.
+    ///
+    /// # Errors
+    ///
+    /// [`ResultsError::Output`] when it cannot be written.
+    pub fn open(path: &Path) -> Result<Self, ResultsError> {
+        output::prepare(path)?;
+        Ok(Self { path: path.into() })
     }
 
     /// Where it is.
@@ -165,13 +181,14 @@ mod tests {
     fn a_new_run_removes_results_of_an_earlier_one_and_nothing_else() {
         let root = tempfile::tempdir().unwrap();
         let folder = Folder::create(root.path(), "beam").unwrap();
-        for name in ["summary.json", "fields_0007.vtu", "notes.txt"] {
+        for name in ["summary.json", "sheets.csv", "fields_0007.vtu", "notes.txt"] {
             folder
                 .replace(name, |out| out.write_all(b"earlier"))
                 .unwrap();
         }
         Folder::create(root.path(), "beam").unwrap();
         assert!(!folder.path().join("summary.json").exists());
+        assert!(!folder.path().join("sheets.csv").exists());
         assert!(!folder.path().join("fields_0007.vtu").exists());
         assert!(folder.path().join("notes.txt").exists());
     }

@@ -1,13 +1,15 @@
 //! What a run leaves behind: tables, pictures, summary, progress.
 //!
 //! Everything here takes plain data; nothing knows a model. One folder per beam holds
-//! `history.csv`, `gauges.csv` and `newton.csv`, complete up to the last accepted step at any time, and
-//! `curve.svg`, `curve.png`, `crack.svg` and `summary.json`, each whole or absent.
+//! `history.csv`, `gauges.csv`, `newton.csv`, `events.csv` and `sheets.csv`, complete up to the last accepted
+//! step at any time, and `curve.svg`, `curve.png`, `crack.svg`, `slip.svg`, `sheet.svg`, `sheet_map.csv` and
+//! `summary.json`, each whole or absent. A [`report`] puts the folders of several beams side by side.
 
 pub mod crack;
 pub mod curve;
 pub mod drawing;
 pub mod error;
+pub mod events;
 pub mod evidence;
 pub mod folder;
 pub mod hash;
@@ -16,5 +18,9 @@ pub mod interrupt;
 pub mod mode;
 pub mod palette;
 pub mod progress;
+pub mod report;
 pub mod resources;
+pub mod sheets;
+mod side_view;
 pub mod summary;
+mod table;

@@ -21,6 +21,8 @@ pub const ORANGE: RGBColor = RGBColor(0xe6, 0x9f, 0x00);
 pub const VERMILLION: RGBColor = RGBColor(0xd5, 0x5e, 0x00);
 /// Okabe-Ito bluish green.
 pub const GREEN: RGBColor = RGBColor(0x00, 0x9e, 0x73);
+/// Okabe-Ito reddish purple.
+pub const PURPLE: RGBColor = RGBColor(0xcc, 0x79, 0xa7);
 
 const SEQUENCE: [[f64; 3]; 4] = [
     [253.0, 204.0, 138.0],

@@ -3,7 +3,7 @@
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// Time between two lines where there is no terminal.
 const LINE_INTERVAL: Duration = Duration::from_secs(30);
@@ -39,6 +39,29 @@ impl std::fmt::Display for Status {
     }
 }
 
+/// Where the progress of all beams under way is shown.
+#[derive(Debug, Clone)]
+pub struct Board(MultiProgress);
+
+impl Board {
+    /// A board on standard error.
+    pub fn new() -> Self {
+        Self(MultiProgress::with_draw_target(ProgressDrawTarget::stderr()))
+    }
+
+    /// Prints the result of a beam on standard output.
+    pub fn print_result(&self, line: &str) {
+        // A reader that has gone away is no reason to stop.
+        self.0.suspend(|| drop(writeln!(io::stdout(), "{line}")));
+    }
+}
+
+impl Default for Board {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 /// Progress of one beam: a bar on a terminal, else a line at the start, one every 30 seconds and one at
 /// the end.
 #[derive(Debug)]
@@ -57,9 +80,9 @@ enum Display {
 
 impl Progress {
     /// Starts for the beam `name`, whose path ends at a deflection of `end_mm` at the latest.
-    pub fn start(name: &str, end_mm: f64) -> Self {
+    pub fn start(board: &Board, name: &str, end_mm: f64) -> Self {
         let display = if io::stderr().is_terminal() {
-            Display::Bar(bar(name))
+            Display::Bar(board.0.add(bar(name)))
         } else {
             say(&format!("{name}: started"));
             Display::Lines {
@@ -121,18 +144,12 @@ impl Progress {
     }
 }
 
-/// Prints the result of a beam on standard output.
-pub fn print_result(line: &str) {
-    // A reader that has gone away is no reason to stop.
-    let _ = writeln!(io::stdout(), "{line}");
-}
-
 fn say(line: &str) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 
 fn bar(name: &str) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(BAR_TICKS as u64), ProgressDrawTarget::stderr());
+    let bar = ProgressBar::new(BAR_TICKS as u64);
     // The template is fixed; should it be refused, the default style serves.
     if let Ok(style) = ProgressStyle::with_template("{prefix:<8} {bar:12} {elapsed:>4}  {wide_msg}")
     {

@@ -1,8 +1,13 @@
 //! Runs specimens: model, analysis, files and the line on the terminal.
 
+mod counterfactual;
 mod evidence;
 mod pictures;
+mod pull_out;
+mod queue;
 mod recording;
+mod sheets;
+mod watch;
 
 use std::time::Instant;
 
@@ -14,21 +19,24 @@ use fe_solver::error::SolverError;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings, Refactor};
 use fe_solver::secant::SecantAnderson;
 
-use crate::analysis::{Outcome, Stepping, analyse};
+use crate::analysis::{AnalysisError, Outcome, Staging, Stepping, analyse};
 use crate::build::{Beam, BuildError, ModelSettings};
 use crate::exit::Exit;
 use crate::options::{self, Integration, RunOptions};
 use crate::output;
 use crate::results::error::ResultsError;
+use crate::results::evidence::{Layout, Snapshot};
 use crate::results::folder::Folder;
 use crate::results::hash::fingerprint;
 use crate::results::interrupt::Interrupt;
 use crate::results::mode::Diagnosis;
-use crate::results::progress::print_result;
+use crate::results::progress::Board;
 use crate::results::resources::Resources;
+use crate::results::sheets::{MapState, SheetDrop};
 use crate::results::summary::{Figures, Setup, Summary, WallTime, Work};
 use crate::spec::Specimen;
 use recording::Recording;
+use watch::Watch;
 
 /// First step of the load stage (mm of imposed deflection). Steps from 0.006 to 0.06 mm put the peak of
 /// A-SO3-1 between 138.5 and 140.7 kN, with the characteristic preset between 148.7 and 155.9 kN: the path
@@ -67,7 +75,7 @@ pub enum RunError {
         /// Specimen.
         specimen: String,
         /// Why.
-        reason: Box<SolverError>,
+        reason: Box<AnalysisError>,
     },
     /// A state cannot be read.
     #[error(transparent)]
@@ -85,33 +93,24 @@ impl RunError {
     }
 }
 
-/// Runs the specimens one after the other. All models are built before the first one runs.
+/// Runs the specimens, as many at once as there are threads. All models are built before the first one runs.
 ///
 /// # Errors
 ///
 /// [`RunError`]; the results of the beams before are kept.
 pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, RunError> {
     let interrupt = Interrupt::install()?;
-    let settings = settings(options);
-    let threads = options.threads.map_or(0, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()?;
     if let [_, _, ..] = specimens {
         for specimen in specimens {
-            build(specimen, &settings)?;
+            build(specimen, &settings(options, specimen))?;
         }
     }
     output::prepare(&options.output).map_err(ResultsError::from)?;
-    let mut exit = Exit::Done;
-    for specimen in specimens {
-        let one = pool.install(|| run(specimen, options, &settings, &interrupt))?;
-        exit = exit.max(one);
-        if one == Exit::Interrupted {
-            break;
-        }
-    }
-    Ok(exit)
+    let workers = queue::workers(specimens.len(), options.threads.map_or(0, usize::from))?;
+    let board = Board::new();
+    queue::run(&workers, specimens, |specimen, worker| {
+        run(specimen, options, (&interrupt, &board, &worker.threads))
+    })
 }
 
 fn build(specimen: &Specimen, settings: &ModelSettings) -> Result<Beam, RunError> {
@@ -121,9 +120,12 @@ fn build(specimen: &Specimen, settings: &ModelSettings) -> Result<Beam, RunError
     })
 }
 
-fn settings(options: &RunOptions) -> ModelSettings {
-    let mut settings = ModelSettings::new(options.preset);
+fn settings(options: &RunOptions, specimen: &Specimen) -> ModelSettings {
+    let mut settings = ModelSettings::new(options.preset, specimen);
     settings.law = options.law;
+    settings.bond = options.bond;
+    settings.soffit_fibre = options.soffit_fibre.unwrap_or(settings.soffit_fibre);
+    settings.sheet_shear = options.sheet_shear.unwrap_or(settings.sheet_shear);
     if let Some(mesh) = options.mesh {
         settings.mesh = [mesh.nx, mesh.ny, mesh.nz];
     }
@@ -163,24 +165,44 @@ fn driver(options: &RunOptions) -> Box<dyn Driver> {
 fn run(
     specimen: &Specimen,
     options: &RunOptions,
-    settings: &ModelSettings,
-    interrupt: &Interrupt,
+    (interrupt, board, threads): (&Interrupt, &Board, &str),
 ) -> Result<Exit, RunError> {
     let begin = Instant::now();
-    let resources = Resources::start();
-    let beam = build(specimen, settings)?;
+    let resources = Resources::start(threads);
+    let settings = settings(options, specimen);
+    let beam = build(specimen, &settings)?;
     let folder = Folder::create(&options.output, &specimen.name)?;
     let stepping = stepping(specimen, options);
+    let bond_error = match &beam.sheets {
+        Some(sheets) => pull_out::error(&beam.model, sheets)?,
+        None => None,
+    };
     let mut driver = driver(options);
+    let layout = evidence::layout(specimen, &beam);
     let mut recording = Recording::start(
-        &specimen.name,
-        &beam,
+        (board, &specimen.name),
+        (&beam, &layout),
         &folder,
         options.fields,
         (stepping.until_mm, stepping.criterion),
         interrupt,
     )?;
-    let outcome = match analyse(&beam, &stepping, driver.as_mut(), &mut recording) {
+    if let Some(error) = &bond_error {
+        recording.note(&error.to_string());
+    }
+    let staging = specimen.staged.as_ref().map(|staged| Staging {
+        specimen,
+        settings: &settings,
+        staged,
+    });
+    let done = analyse(
+        &beam,
+        staging.as_ref(),
+        &stepping,
+        driver.as_mut(),
+        &mut recording,
+    );
+    let outcome = match done {
         Ok(outcome) => outcome,
         Err(_) if interrupt.is_set() => return Ok(Exit::Interrupted),
         Err(error) => {
@@ -190,9 +212,11 @@ fn run(
             });
         }
     };
+    let beam = outcome.strengthened.as_ref().unwrap_or(&beam);
     let states: Vec<_> = outcome.peak.iter().chain([&outcome.last]).collect();
+    let (watch, writing) = recording.finish(&beam.model, &states)?;
     let mut wall = WallTime {
-        output: recording.finish(&states)?.as_secs_f64(),
+        output: writing.as_secs_f64(),
         ..WallTime::default()
     };
     let drawing = Instant::now();
@@ -203,24 +227,47 @@ fn run(
     }
     let (stop_reason, exit) = end(&outcome, interrupt);
     let Some(capacity) = Capacity::of(&outcome.path) else {
-        print_result(&format!("{:<8}  {stop_reason}", specimen.name));
+        board.print_result(&format!("{:<8}  {stop_reason}", specimen.name));
         return Ok(exit);
     };
     let verdict = Verdict::of(&outcome.path, &capacity);
     let Some(figures) = Figures::of(&outcome.path, &capacity, &verdict) else {
         return Ok(exit);
     };
-    let layout = evidence::layout(specimen, &beam);
-    let peak = evidence::snapshot(&beam, outcome.peak.as_ref().unwrap_or(&outcome.last))?;
-    let last = evidence::snapshot(&beam, &outcome.last)?;
-    let diagnosis = Diagnosis::of(&layout, &peak, &last, capacity.post_peak_drop);
-    let setup = setup(specimen, options, settings, &beam, driver.name());
+    let at_peak = outcome.peak.as_ref().unwrap_or(&outcome.last);
+    let peak = evidence::snapshot(beam, at_peak)?;
+    let last = evidence::snapshot(beam, &outcome.last)?;
+    let ratio = match &beam.sheets {
+        Some(_) if options.counterfactual => {
+            let peak = counterfactual::peak_kn(specimen, &settings, &stepping, options, interrupt)?;
+            peak.map(|perfect| perfect / figures.peak_load_kn)
+        }
+        _ => None,
+    };
+    let diagnosis = diagnosis(
+        &layout,
+        (&peak, &last),
+        &outcome,
+        (&capacity, ratio),
+        &watch,
+    );
+    let setup = setup(specimen, options, &settings, beam, driver.name());
     pictures::curve(&folder, specimen, &setup, &outcome, (&capacity, &verdict))?;
     let title = format!(
         "cracks at the peak, {:.1} kN at {:.2} mm",
         figures.peak_load_kn, figures.deflection_at_peak_mm
     );
-    pictures::crack(&folder, specimen, &beam, &peak, &title)?;
+    pictures::crack(&folder, specimen, beam, &peak, &title)?;
+    if let Some(record) = &beam.sheets {
+        let states = [(MapState::Peak, at_peak), (MapState::End, &outcome.last)];
+        pictures::sheets(
+            &folder,
+            specimen,
+            (beam, record),
+            watch.sheet_layout(),
+            states,
+        )?;
+    }
     wall.output += drawing.elapsed().as_secs_f64();
     wall.total = begin.elapsed().as_secs_f64();
     let test = specimen.test.as_ref().map(|t| t.load_kn.get());
@@ -232,17 +279,39 @@ fn run(
         figures,
         stop_reason,
         diagnosis,
+        bond_error,
         self_weight_reaction_kn: outcome.self_weight_kn,
+        energy: Some(watch.energy()),
         wall_s: wall,
         cpu_s: resources.cpu_s(),
         max_rss_mb: resources.max_rss_mb(),
     };
     summary.write(&folder)?;
-    print_result(&match exit {
+    board.print_result(&match exit {
         Exit::Done => summary.line(),
         _ => format!("{}  stopped: {}", summary.line(), summary.stop_reason),
     });
     Ok(exit)
+}
+
+fn diagnosis(
+    layout: &Layout,
+    (peak, last): (&Snapshot, &Snapshot),
+    outcome: &Outcome,
+    (capacity, ratio): (&Capacity, Option<f64>),
+    watch: &Watch,
+) -> Diagnosis {
+    let rows = watch.rows();
+    // Rows before the sheets were bonded do not belong to the path.
+    let rows = &rows[rows.len().saturating_sub(outcome.path.len())..];
+    let drop = SheetDrop::of(watch.sheet_layout(), rows, &outcome.path, capacity);
+    match drop {
+        Some(sheets) if !watch.sheet_layout().zones.is_empty() => {
+            let states = (peak, last);
+            Diagnosis::strengthened(layout, states, capacity.post_peak_drop, &sheets, ratio)
+        }
+        _ => Diagnosis::of(layout, peak, last, capacity.post_peak_drop),
+    }
 }
 
 /// Why the path ended, and what that means for the exit code.
@@ -250,7 +319,9 @@ fn end(outcome: &Outcome, interrupt: &Interrupt) -> (String, Exit) {
     match &outcome.stop {
         Ok(reason) => (reason.clone(), Exit::Done),
         Err(_) if interrupt.is_set() => ("stopped by the user".into(), Exit::Interrupted),
-        Err(error @ SolverError::Output(_)) => (error.to_string(), Exit::File),
+        Err(error @ AnalysisError::Solver(SolverError::Output(_))) => {
+            (error.to_string(), Exit::File)
+        }
         Err(error) => (error.to_string(), Exit::StoppedEarly),
     }
 }

@@ -2,14 +2,16 @@
 
 use fe_solver::capacity::{Capacity, Verdict};
 
-use crate::analysis::Outcome;
-use crate::build::{BarKind, BarRecord, Beam};
+use super::RunError;
+use crate::analysis::{Outcome, Snapshot as State};
+use crate::build::{BarKind, BarRecord, Beam, Line, SheetRecord};
 use crate::results::crack::CrackView;
 use crate::results::curve::Curve;
 use crate::results::drawing::Picture;
 use crate::results::error::ResultsError;
 use crate::results::evidence::Snapshot;
 use crate::results::folder::Folder;
+use crate::results::sheets::{MapRow, MapState, SheetLayout, SheetView, Shown, write_map};
 use crate::results::summary::Setup;
 use crate::spec::Specimen;
 
@@ -48,18 +50,7 @@ pub(super) fn crack(
     peak: &Snapshot,
     title: &str,
 ) -> Result<(), ResultsError> {
-    let nodes = beam.model.mesh().nodes();
-    let cells = beam
-        .model
-        .mesh()
-        .blocks()
-        .iter()
-        .flat_map(fe_core::mesh::Block::cells);
-    let elements: Vec<[[f64; 2]; 2]> = cells
-        .map(|cell| (nodes[cell[0]], nodes[cell[6]]))
-        .filter(|(low, _)| low[2] < ON)
-        .map(|(low, high)| [[low[0], low[1]], [high[0], high[1]]])
-        .collect();
+    let elements = outlines(beam);
     let outermost = peak
         .concrete
         .iter()
@@ -96,6 +87,54 @@ pub(super) fn crack(
         points: &points,
     };
     view.save_svg(folder, "crack")
+}
+
+/// `sheet_map.csv`, and from it `slip.svg` and `sheet.svg` at the peak.
+pub(super) fn sheets(
+    folder: &Folder,
+    specimen: &Specimen,
+    (beam, record): (&Beam, &SheetRecord),
+    layout: &SheetLayout,
+    states: [(MapState, &State); 2],
+) -> Result<(), RunError> {
+    let mut rows = Vec::new();
+    for (name, at) in states {
+        let seen = super::sheets::state(record, (&beam.model, &at.displacement, &at.state))?;
+        rows.extend(MapRow::of(name, layout, &seen));
+    }
+    write_map(folder, &rows)?;
+    let title = format!("at the peak, {:.2} mm", states[0].1.deflection_mm);
+    let places = |lines: &[Line]| lines.iter().map(|l| [l.x, l.y]).collect::<Vec<_>>();
+    for shown in [Shown::Slip, Shown::FibreStress] {
+        if shown == Shown::Slip && record.interfaces.is_empty() {
+            continue;
+        }
+        let view = SheetView {
+            specimen: &specimen.name,
+            title: &title,
+            shown,
+            state: MapState::Peak,
+            rows: &rows,
+            zones: &layout.zones,
+            elements: &outlines(beam),
+            supports: &places(&beam.measures.supports),
+            loads: &places(&beam.measures.loads),
+        };
+        view.save_svg(folder, shown.file())?;
+    }
+    Ok(())
+}
+
+/// Outlines of the elements next to the symmetry plane: lower left and upper right corner.
+fn outlines(beam: &Beam) -> Vec<[[f64; 2]; 2]> {
+    let nodes = beam.model.mesh().nodes();
+    let blocks = beam.model.mesh().blocks().iter();
+    blocks
+        .flat_map(fe_core::mesh::Block::cells)
+        .map(|cell| (nodes[cell[0]], nodes[cell[6]]))
+        .filter(|(low, _)| low[2] < ON)
+        .map(|(low, high)| [[low[0], low[1]], [high[0], high[1]]])
+        .collect()
 }
 
 fn side_view(bar: &BarRecord) -> Vec<[f64; 2]> {

@@ -3,24 +3,29 @@
 use std::io;
 use std::time::{Duration, Instant};
 
+use fe_core::model::Model;
 use fe_core::output::FieldSeries;
 use fe_solver::recorder::{Continue, IterationRecord, StepView};
 
+use super::watch::Watch;
 use crate::analysis::{Observer, Reading, Snapshot};
-use crate::build::Beam;
+use crate::build::{Beam, Gauge};
 use crate::options::Fields;
 use crate::output::OutputError;
 use crate::results::error::ResultsError;
+use crate::results::evidence::Layout;
 use crate::results::folder::Folder;
 use crate::results::history::{History, StepRow};
 use crate::results::interrupt::Interrupt;
-use crate::results::progress::{Progress, Status};
+use crate::results::progress::{Board, Progress, Status};
 
 /// Tables, fields and live progress of one beam.
 pub(super) struct Recording<'a> {
     beam: &'a Beam,
     folder: Folder,
     history: History,
+    gauges: Vec<Gauge>,
+    watch: Watch,
     fields: Option<FieldSeries>,
     every_step: bool,
     progress: Progress,
@@ -31,8 +36,8 @@ pub(super) struct Recording<'a> {
 
 impl<'a> Recording<'a> {
     pub(super) fn start(
-        name: &str,
-        beam: &'a Beam,
+        (board, name): (&Board, &str),
+        (beam, layout): (&'a Beam, &Layout),
         folder: &Folder,
         fields: Fields,
         plan: (f64, f64),
@@ -54,28 +59,39 @@ impl<'a> Recording<'a> {
             beam,
             folder: folder.clone(),
             history: History::create(folder, &supports, &gauges)?,
+            gauges: beam.gauges.clone(),
+            watch: Watch::start(beam, layout, folder)?,
             fields: fields_series,
             every_step: fields == Fields::All,
-            progress: Progress::start(name, until_mm),
+            progress: Progress::start(board, name, until_mm),
             interrupt,
             criterion,
             spent: Duration::ZERO,
         })
     }
 
-    /// Ends; writes the fields of the given states, unless every step has been written. Returns the wall
-    /// time spent writing.
-    pub(super) fn finish(mut self, states: &[&Snapshot]) -> Result<Duration, ResultsError> {
+    /// Says something that stays on the terminal.
+    pub(super) fn note(&self, text: &str) {
+        self.progress.note(text);
+    }
+
+    /// Ends; writes the fields of the given states of a model, unless every step has been written. Returns
+    /// the evidence gathered and the wall time spent writing.
+    pub(super) fn finish(
+        mut self,
+        model: &Model,
+        states: &[&Snapshot],
+    ) -> Result<(Watch, Duration), ResultsError> {
         let begin = Instant::now();
         if let Some(series) = self.fields.as_mut().filter(|_| !self.every_step) {
             for s in states {
                 series
-                    .record(s.deflection_mm, &self.beam.model, &s.displacement, &s.state)
+                    .record(s.deflection_mm, model, &s.displacement, &s.state)
                     .map_err(|source| refused(&self.folder, source))?;
             }
         }
         self.progress.finish();
-        Ok(self.spent + begin.elapsed())
+        Ok((self.watch, self.spent + begin.elapsed()))
     }
 
     fn record(&mut self, view: &StepView<'_>, reading: &Reading, step: usize) -> io::Result<()> {
@@ -98,19 +114,27 @@ impl<'a> Recording<'a> {
             factorisations: stage.counters().factorisations,
             force_evaluations: stage.counters().force_evaluations,
         };
+        let model = stage.model();
+        // A beam that is strengthened under load has no strain of its sheets before.
+        let complete = model.dofs().len() == self.beam.model.dofs().len();
         let strains = self
-            .beam
             .gauges
             .iter()
-            .map(|g| g.read(&self.beam.model, stage.displacement(), stage.state()))
+            .map(|g| match g.is_on_sheet() && !complete {
+                true => Ok(f64::NAN),
+                false => g.read(model, stage.displacement(), stage.state()),
+            })
             .collect::<Result<Vec<f64>, _>>()
             .map_err(io::Error::other)?;
         self.history.step(&row, &strains)?;
         if let Some(series) = self.fields.as_mut().filter(|_| self.every_step) {
-            let (model, u) = (&self.beam.model, stage.displacement());
+            let u = stage.displacement();
             series
                 .record(reading.deflection_mm, model, u, stage.state())
                 .map_err(io::Error::other)?;
+        }
+        for event in self.watch.step(self.beam, stage, step, reading)? {
+            self.progress.note(&event.to_string());
         }
         self.progress.step(Status {
             step,
@@ -147,8 +171,20 @@ impl Observer for Recording<'_> {
         Ok(self.history.iteration(record)?)
     }
 
-    fn step(&mut self, view: &StepView<'_>, reading: &Reading) -> io::Result<Continue> {
-        self.record(view, reading, view.step)?;
+    fn step(
+        &mut self,
+        view: &StepView<'_>,
+        step: usize,
+        reading: &Reading,
+    ) -> io::Result<Continue> {
+        self.record(view, reading, step)?;
         Ok(Continue::Yes)
+    }
+
+    fn bonded(&mut self, beam: &Beam, u: &[f64]) -> io::Result<()> {
+        self.gauges.clone_from(&beam.gauges);
+        self.watch.bonded(u);
+        self.progress.note("sheets bonded");
+        Ok(())
     }
 }

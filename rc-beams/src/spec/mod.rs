@@ -5,6 +5,7 @@ mod check;
 mod quantity;
 mod read;
 mod reinforcement;
+mod sheets;
 mod specimen;
 
 pub use builtin::BUILTIN;
@@ -12,4 +13,5 @@ pub use check::{Finding, check};
 pub use quantity::*;
 pub use read::read;
 pub use reinforcement::*;
+pub use sheets::*;
 pub use specimen::*;

@@ -38,6 +38,10 @@ const M_S2: Unit = Unit {
     symbol: " m/s2",
     mistaken: &[("mm/s2", 1e-3)],
 };
+const DEGREES: Unit = Unit {
+    symbol: " degrees",
+    mistaken: &[],
+};
 const KN: Unit = Unit {
     symbol: " kN",
     mistaken: &[("N", 1e-3), ("MN", 1e3)],
@@ -137,6 +141,26 @@ quantities! {
     HardeningRatio: NUMBER in 0.0 to 0.1;
     /// Young's modulus of a loading plate (MPa).
     PlateModulus: MPA in 5000.0 to 1000000.0;
+    /// Thickness of a ply of fibre sheet (mm).
+    PlyThickness: MM in 0.01 to 5.0;
+    /// Young's modulus of a fibre sheet along its fibres (MPa).
+    FibreModulus: MPA in 10000.0 to 700000.0;
+    /// Young's modulus of a fibre sheet across its fibres (MPa).
+    TransverseModulus: MPA in 1.0 to 50000.0;
+    /// Shear modulus of a fibre sheet in its plane (MPa).
+    SheetShearModulus: MPA in 100.0 to 150000.0;
+    /// Rupture stress of a fibre sheet along its fibres (MPa).
+    SheetStrength: MPA in 100.0 to 7000.0;
+    /// Direction of fibres or of a gauge (degrees).
+    Angle: DEGREES in -90.0 to 90.0;
+    /// Width over which a fibre sheet lies twice (mm).
+    Overlap: MM in 1.0 to 2000.0;
+    /// Thickness of a layer of adhesive (mm).
+    AdhesiveThickness: MM in 0.05 to 10.0;
+    /// Young's modulus of adhesive (MPa).
+    AdhesiveModulus: MPA in 100.0 to 20000.0;
+    /// Length over which a strain gauge averages (mm).
+    GaugeLength: MM in 1.0 to 200.0;
     /// Diameter of a bar (mm).
     BarDiameter: MM in 3.0 to 60.0;
     /// Cross-section of a bar or of one leg of a stirrup (mm2).

@@ -12,6 +12,7 @@ use super::quantity::{
     TensileStrength,
 };
 use super::reinforcement::{Bar, Stirrups};
+use super::sheets::{SheetGauge, Sheets, Staged};
 
 /// One beam.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -33,6 +34,12 @@ pub struct Specimen {
     pub bars: Vec<Bar>,
     /// Stirrups, if any.
     pub stirrups: Option<Stirrups>,
+    /// Fibre sheets, if any.
+    #[serde(default)]
+    pub sheets: Option<Sheets>,
+    /// When the sheets are bonded; `None`: before any load.
+    #[serde(default)]
+    pub staged: Option<Staged>,
     /// Supports from left to right.
     pub supports: Vec<Support>,
     /// Loads from left to right; all are pushed down by the same amount.
@@ -172,6 +179,9 @@ pub struct Measuring {
     pub load: LoadMeasure,
     /// The shear span under test.
     pub test_span: Span,
+    /// Strain gauges on the fibre sheets.
+    #[serde(default)]
+    pub sheet_gauges: Vec<SheetGauge>,
 }
 
 /// A point of the half model.
@@ -243,6 +253,12 @@ pub enum Mode {
     Shear,
     /// Yield of the longitudinal bars, then crushing.
     Flexure,
+    /// Fibre sheets come off the concrete.
+    Debonding,
+    /// The concrete splits, with the sheets on it.
+    Splitting,
+    /// Fibre sheets tear.
+    Rupture,
 }
 
 impl Specimen {

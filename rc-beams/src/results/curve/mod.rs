@@ -1,20 +1,23 @@
 //! Load against deflection, as a picture.
 
+mod axes;
+mod group;
 mod legend;
+
+pub use group::{GroupCurves, GroupLine};
 
 use std::mem::take;
 
 use fe_solver::capacity::{Capacity, PathPoint, Verdict, is_jump};
-use plotters::chart::{ChartBuilder, ChartContext, LabelAreaPosition};
-use plotters::coord::types::RangedCoordf64;
 use plotters::element::{Circle, EmptyElement, PathElement, Text, TriangleMarker};
-use plotters::prelude::{Cartesian2d, DashedLineSeries, DrawingBackend};
+use plotters::prelude::{DashedLineSeries, DrawingBackend};
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{Color, WHITE};
 
+use self::axes::{Chart, axes};
 use self::legend::draw_legend;
 use super::drawing::{Area, Drawn, Picture, draw_heading, line, placed, text, units, wrap};
-use super::palette::{BLUE, FAINT, GREEN, INK, ORANGE, VERMILLION};
+use super::palette::{BLUE, GREEN, ORANGE, VERMILLION};
 
 /// Load-deflection curve of a run, in mm and kN.
 #[derive(Debug, Clone, Copy)]
@@ -33,8 +36,6 @@ pub struct Curve<'a> {
     pub test_load_kn: Option<f64>,
 }
 
-type Chart<'c, DB> = ChartContext<'c, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-
 impl Picture for Curve<'_> {
     fn size(&self) -> (u32, u32) {
         (860, 560)
@@ -44,29 +45,7 @@ impl Picture for Curve<'_> {
         let trust = format!("trust {}: {}", self.verdict.trust, self.verdict.reason);
         draw_heading(area, self.specimen, self.title, &wrap(&trust, 118))?;
         let (x_end, y_end) = self.extent();
-        let mut chart = ChartBuilder::on(area)
-            .margin_top(units(86.0))
-            .margin_right(units(28.0))
-            .margin_bottom(units(8.0))
-            .margin_left(units(8.0))
-            .set_label_area_size(LabelAreaPosition::Left, units(58.0))
-            .set_label_area_size(LabelAreaPosition::Bottom, units(46.0))
-            .build_cartesian_2d(0.0..x_end, 0.0..y_end)?;
-        chart
-            .configure_mesh()
-            .bold_line_style(line(FAINT, 0.75))
-            .light_line_style(WHITE.mix(0.0))
-            .axis_style(line(INK, 1.0))
-            .label_style(text(INK, 13.0))
-            .axis_desc_style(text(INK, 14.0))
-            .set_all_tick_mark_size(units(4.0))
-            .x_labels(10)
-            .y_labels(10)
-            .x_label_formatter(&|value| short(*value))
-            .y_label_formatter(&|value| short(*value))
-            .x_desc("deflection [mm]")
-            .y_desc("load [kN]")
-            .draw()?;
+        let mut chart = axes(area, (units(86.0), units(28.0)), (x_end, y_end))?;
         self.draw_test(&mut chart)?;
         self.draw_path(&mut chart)?;
         self.draw_marks(&chart, area)?;
@@ -181,11 +160,6 @@ fn draw_work<DB: DrawingBackend>(chart: &mut Chart<'_, DB>, points: Vec<(f64, f6
     let style = line(VERMILLION, 1.0);
     chart.draw_series(DashedLineSeries::new(points, units(4.0), units(4.0), style))?;
     Ok(())
-}
-
-/// A number at an axis, without zeros at its end.
-fn short(value: f64) -> String {
-    ((value * 1e3).round() / 1e3).to_string()
 }
 
 #[cfg(test)]

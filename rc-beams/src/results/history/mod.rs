@@ -1,13 +1,11 @@
 //! Tables that grow during a run: steps, gauges, iterations.
 
-mod table;
-
 use fe_solver::capacity::PathPoint;
 use fe_solver::recorder::IterationRecord;
 
-use self::table::{Table, number};
 use super::error::ResultsError;
 use super::folder::Folder;
+use super::table::{Table, number};
 
 /// One row of `history.csv`: an accepted step; self weight is step 0. Loads and reactions of the whole
 /// width.

@@ -24,13 +24,17 @@
 //! | | | otherwise | | | undecided |
 //!
 //! The thresholds are assumed: they separate clear cases and leave the others undecided.
+//!
+//! Where the span that fails carries sheets, the rules of [`strengthened`] follow.
+
+pub mod strengthened;
 
 use std::fmt;
 
 use fe_solver::capacity::DROP_FALL;
 use serde::{Serialize, Serializer};
 
-use super::evidence::{BarReach, ConcretePoint, Layout, Snapshot};
+use super::evidence::{BarReach, Layout, Snapshot};
 
 /// Angles between crack normal and beam axis that make a crack diagonal (degrees).
 const DIAGONAL_DEG: std::ops::RangeInclusive<f64> = 25.0..=70.0;
@@ -54,6 +58,14 @@ pub enum FailureMode {
     Flexure,
     /// Concrete crushes outside the web, bars elastic.
     ConcreteCrushing,
+    /// The concrete fails behind sheets that stay bonded.
+    ConcreteSplitting,
+    /// The sheets lose their bond.
+    Debonding,
+    /// A sheet ruptures.
+    SheetRupture,
+    /// Bond, concrete or steel fail together, none of them clearly first.
+    Mixed,
     /// The load does not fall.
     None,
     /// The evidence conflicts or does not suffice.
@@ -67,6 +79,10 @@ impl fmt::Display for FailureMode {
             Self::WebCrushing => "shear (web crushing)",
             Self::Flexure => "flexure",
             Self::ConcreteCrushing => "concrete crushing",
+            Self::ConcreteSplitting => "concrete splitting",
+            Self::Debonding => "debonding",
+            Self::SheetRupture => "sheet rupture",
+            Self::Mixed => "mixed",
             Self::None => "none (no failure reached)",
             Self::Undecided => "undecided",
         })
@@ -86,6 +102,8 @@ pub struct Diagnosis {
     pub mode: FailureMode,
     /// Why, in one line, with numbers.
     pub mode_evidence: String,
+    /// Peak with perfect bond over that of the beam, where the run with perfect bond was made.
+    pub counterfactual_ratio: Option<f64>,
 }
 
 impl Diagnosis {
@@ -106,6 +124,7 @@ impl Diagnosis {
                 end.stirrups_yielded,
                 layout.stirrups
             ),
+            counterfactual_ratio: None,
         }
     }
 }
@@ -115,6 +134,8 @@ impl Diagnosis {
 struct Measures {
     diagonal_share: f64,
     diagonal_span: String,
+    /// Index of that span; none where no diagonal crack grows.
+    span: Option<usize>,
     bar: Option<BarReach>,
     yielded: bool,
     softened_web: f64,
@@ -134,7 +155,7 @@ impl Measures {
         for (before, after) in peak.concrete.iter().zip(&end.concrete) {
             let span = layout.span_at(before.position[0]);
             let growth = before.volume * (after.crack_strain - before.crack_strain).max(0.0);
-            let angle = inclination_deg(after);
+            let angle = after.inclination_deg();
             match span {
                 Some(i) if DIAGONAL_DEG.contains(&angle) => diagonal[i] += growth,
                 _ if angle < *DIAGONAL_DEG.start() && (span.is_none() || yielded) => {
@@ -158,6 +179,7 @@ impl Measures {
         let worst = (0..spans).max_by(|&a, &b| diagonal[a].total_cmp(&diagonal[b]));
         Self {
             diagonal_share: share(total, total + vertical),
+            span: worst.filter(|_| total > 0.0),
             diagonal_span: worst.map_or_else(String::new, |i| layout.shear_spans[i].name.clone()),
             yielded,
             bar: bar.cloned(),
@@ -212,11 +234,6 @@ impl fmt::Display for Measures {
             percent(self.crushing_growth)
         )
     }
-}
-
-/// Angle between crack normal and beam axis (degrees); 90 without a crack.
-fn inclination_deg(point: &ConcretePoint) -> f64 {
-    point.crack_normal[0].abs().min(1.0).acos().to_degrees()
 }
 
 fn share(part: f64, whole: f64) -> f64 {

@@ -1,9 +1,9 @@
 //! Protects the table of the module: one history per row, and the honesty of the last one.
 use super::*;
-use crate::results::evidence::ShearSpan;
+use crate::results::evidence::{ConcretePoint, ShearSpan};
 
 /// A beam of 3000 x 300 with loads at 1000 and 2000.
-fn layout() -> Layout {
+pub(in crate::results) fn layout() -> Layout {
     let span = |name: &str, from_mm, to_mm| ShearSpan {
         name: name.to_owned(),
         from_mm,
@@ -20,7 +20,7 @@ fn layout() -> Layout {
 }
 
 /// 30 points at mid-height, 100 mm apart, with a vertical crack each and a bar below yield.
-fn peak() -> Snapshot {
+pub(in crate::results) fn peak() -> Snapshot {
     let point = |i: u32| ConcretePoint {
         position: [50.0 + 100.0 * f64::from(i), 150.0, 37.5],
         volume: 1e6,
@@ -47,7 +47,7 @@ fn peak() -> Snapshot {
 }
 
 /// Opens a crack at point `i` whose normal is inclined by `degrees`.
-fn open(state: &mut Snapshot, i: usize, degrees: f64) {
+pub(in crate::results) fn open(state: &mut Snapshot, i: usize, degrees: f64) {
     let (sin, cos) = degrees.to_radians().sin_cos();
     state.concrete[i].crack_strain += 0.01;
     state.concrete[i].crack_normal = [cos, sin, 0.0];

@@ -1,5 +1,9 @@
 //! `summary.json`: what a run says, in one object.
 
+mod energy;
+
+pub use energy::{Energy, PartEnergy};
+
 use std::io;
 
 use fe_solver::capacity::{Capacity, PathPoint, Verdict};
@@ -11,7 +15,7 @@ use super::folder::Folder;
 use super::mode::Diagnosis;
 
 /// One run of one specimen. The groups are flattened: the file is one object without nesting but for
-/// `wall_s`. What does not exist, or is not finite, is `null`.
+/// `energy` and `wall_s`. What does not exist, or is not finite, is `null`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
     /// What was run.
@@ -32,14 +36,44 @@ pub struct Summary {
     pub test_load_kn: Option<f64>,
     /// Peak load over that of the test.
     pub ratio_model_to_test: Option<f64>,
+    /// What the size of the elements costs in bond.
+    pub bond_error: Option<BondError>,
     /// Sum of the vertical reactions under self weight (kN), whole width.
     pub self_weight_reaction_kn: f64,
+    /// Energy by part, where it is followed.
+    pub energy: Option<Energy>,
     /// Wall time (s).
     pub wall_s: WallTime,
     /// Processor time of all threads (s).
     pub cpu_s: Option<f64>,
     /// Largest resident set (MB).
     pub max_rss_mb: Option<f64>,
+}
+
+/// Pull-out of a long strip with elements of the size they have in the beam, against its closed form.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct BondError {
+    /// Largest element along the fibres (mm).
+    pub element_mm: f64,
+    /// Largest force the elements transfer (N per mm of width).
+    pub force_n_per_mm: f64,
+    /// Its exact value (N/mm).
+    pub exact_n_per_mm: f64,
+    /// Relative error.
+    pub relative: f64,
+}
+
+impl std::fmt::Display for BondError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "elements of {:.0} mm along the fibres transfer {:.1} N/mm in a pull-out, {:+.1} % over the exact {:.1}",
+            self.element_mm,
+            self.force_n_per_mm,
+            100.0 * self.relative,
+            self.exact_n_per_mm
+        )
+    }
 }
 
 /// What was run.

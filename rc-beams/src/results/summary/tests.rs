@@ -4,7 +4,7 @@ use crate::results::mode::FailureMode;
 use serde_json::Value;
 
 /// Keys that readers may rely on.
-const KEYS: [&str; 34] = [
+const KEYS: [&str; 36] = [
     "specimen",
     "preset",
     "law",
@@ -31,6 +31,8 @@ const KEYS: [&str; 34] = [
     "trust_reason",
     "mode",
     "mode_evidence",
+    "counterfactual_ratio",
+    "energy",
     "test_load_kn",
     "ratio_model_to_test",
     "self_weight_reaction_kn",
@@ -68,10 +70,13 @@ fn summary(loads: &[f64]) -> Summary {
         diagnosis: Diagnosis {
             mode: FailureMode::DiagonalTension,
             mode_evidence: String::new(),
+            counterfactual_ratio: None,
         },
         test_load_kn: Some(151.0),
         ratio_model_to_test: Some(149.2 / 151.0),
         self_weight_reaction_kn: f64::NAN,
+        bond_error: None,
+        energy: None,
         wall_s: WallTime {
             total: 6.14,
             ..WallTime::default()
@@ -123,4 +128,23 @@ fn the_line_says_it_all() {
 fn a_ratio_just_below_one_is_no_negative_zero() {
     assert_eq!(format!("{:+.0} %", percent_over(0.999)), "+0 %");
     assert_eq!(format!("{:+.0} %", percent_over(0.987)), "-1 %");
+}
+
+#[test]
+fn the_energy_balance_closes_where_the_parts_do_the_external_work() {
+    let part = |work_j, stored_j| PartEnergy {
+        work_j,
+        stored_j,
+        dissipated_j: work_j - stored_j,
+    };
+    let parts = [
+        ("concrete".to_owned(), part(300.0, 120.0)),
+        ("interface".to_owned(), part(97.0, 10.0)),
+    ];
+    let mut run = summary(&[0.0, 149.2, 100.0]);
+    run.energy = Some(Energy::new(400.0, parts.into()));
+    let json = serde_json::to_value(&run).unwrap();
+    assert_eq!(json["energy"]["closure"], 0.0075);
+    assert_eq!(json["energy"]["parts"]["interface"]["dissipated_j"], 87.0);
+    assert_eq!(Energy::new(0.0, [].into()).closure, None);
 }

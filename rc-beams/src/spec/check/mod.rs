@@ -1,6 +1,7 @@
 //! Checks between the fields of a specimen: what no number tells alone.
 
 mod reinforcement;
+mod sheets;
 mod supports;
 
 use std::fmt::Display;
@@ -10,6 +11,8 @@ use super::specimen::Specimen;
 
 /// Slack of comparisons of lengths (mm).
 const TOLERANCE: f64 = 1e-6;
+
+const ALONG: &str = "x is measured from the left end of the beam";
 
 /// Something wrong with a specimen.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,6 +34,7 @@ pub fn check(specimen: &Specimen) -> Vec<Finding> {
     checks.name();
     checks.reinforcement();
     checks.supports();
+    checks.sheets();
     checks.findings
 }
 
@@ -68,6 +72,17 @@ impl Checks<'_> {
         if to <= from {
             let message = format!("ends at {to} mm; allowed: more than {from} mm, where it begins");
             self.report(path, message, "exchange the two ends");
+        }
+    }
+
+    /// Reports a name given before.
+    fn named_once(&mut self, path: &str, what: &str, name: &str, before: bool) {
+        if before {
+            self.report(
+                format!("{path}.name"),
+                format!("{name:?} names two {what}; allowed: a name of its own"),
+                "the results are written by name",
+            );
         }
     }
 

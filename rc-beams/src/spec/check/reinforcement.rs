@@ -3,14 +3,13 @@
 use std::f64::consts::FRAC_PI_4;
 use std::ops::RangeInclusive;
 
-use super::{Checks, TOLERANCE};
+use super::{ALONG, Checks, TOLERANCE};
 use crate::spec::quantity::{BarArea, BarDiameter};
 use crate::spec::reinforcement::{Bar, Steel, Stirrups, Zone};
 
 /// Smallest and largest cross-section of a bar over the circle of its diameter.
 const AREA_RATIO: RangeInclusive<f64> = 0.8..=1.1;
 
-const ALONG: &str = "x is measured from the left end of the beam";
 const UP: &str = "y is measured from the soffit";
 const ACROSS: &str = "z is measured from the middle of the width";
 
@@ -19,16 +18,8 @@ impl Checks<'_> {
         let specimen = self.specimen;
         for (i, bar) in specimen.bars.iter().enumerate() {
             self.bar(&format!("bars[{i}]"), bar);
-            if specimen.bars[..i]
-                .iter()
-                .any(|other| other.name == bar.name)
-            {
-                self.report(
-                    format!("bars[{i}].name"),
-                    format!("{:?} names two bars; allowed: a name of its own", bar.name),
-                    "the results are written by name",
-                );
-            }
+            let named = specimen.bars[..i].iter().any(|b| b.name == bar.name);
+            self.named_once(&format!("bars[{i}]"), "bars", &bar.name, named);
         }
         if let Some(stirrups) = &specimen.stirrups {
             self.steel("stirrups", &stirrups.steel);

@@ -1,9 +1,7 @@
 //! Supports, loads and measuring points lie on the beam and hold it.
 
-use super::{Checks, TOLERANCE};
+use super::{ALONG, Checks, TOLERANCE};
 use crate::spec::specimen::{Held, LoadMeasure};
-
-const ALONG: &str = "x is measured from the left end of the beam";
 
 /// A plate on or under the beam.
 struct Contact {

@@ -1,22 +1,16 @@
 //! Crack strains seen from the side, as a picture.
 
-mod colour_scale;
-
-use plotters::element::{PathElement, Polygon, Rectangle, Text};
+use plotters::element::{PathElement, Rectangle, Text};
 use plotters::prelude::DrawingBackend;
 use plotters::style::Color;
-use plotters::style::text_anchor::{HPos, VPos};
 
-use self::colour_scale::{ColourScale, SMALLEST_STRAIN};
-use super::drawing::{Area, Drawn, Picture, draw_heading, line, outline, placed, text, units};
+use super::drawing::{Area, Drawn, Picture, draw_heading, line, text, units};
 use super::evidence::ConcretePoint;
-use super::palette::{BLUE, FAINT, GREEN, GREY, INK, sequential};
+use super::palette::{BLUE, GREY, INK, sequential};
+use super::side_view::{ColourScale, Frame, SIDE, WIDTH};
 
-/// Height of heading and load arrows, and of axis, legend and colour bar (pixels).
-const ABOVE: f64 = 106.0;
-const BELOW: f64 = 112.0;
-const SIDE: f64 = 36.0;
-const WIDTH: f64 = 1400.0;
+/// Smallest crack strain that is drawn.
+const SMALLEST_STRAIN: f64 = 1e-4;
 
 /// Side view, x to the right and y up, in mm.
 #[derive(Debug, Clone, Copy)]
@@ -41,18 +35,13 @@ pub struct CrackView<'a> {
 
 impl Picture for CrackView<'_> {
     fn size(&self) -> (u32, u32) {
-        let frame = Frame::of(self.elements);
-        let height = ABOVE + frame.scale * (frame.high[1] - frame.low[1]) + BELOW;
-        (WIDTH as u32, height.ceil() as u32)
+        Frame::of(self.elements).size()
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<'_, DB>) -> Drawn<DB> {
         draw_heading(area, self.specimen, self.title, &[])?;
         let frame = Frame::of(self.elements);
-        for corners in self.elements {
-            let corners = corners.map(|c| frame.at(c));
-            area.draw(&outline(corners, line(FAINT, 0.75)))?;
-        }
+        frame.draw_elements(area, self.elements)?;
         self.draw_crushing(area, &frame)?;
         for (polylines, width) in [(self.stirrups, 1.0), (self.bars, 1.75)] {
             for polyline in polylines {
@@ -60,13 +49,13 @@ impl Picture for CrackView<'_> {
                 area.draw(&PathElement::new(points, line(GREY, width)))?;
             }
         }
-        let scale = ColourScale::of(self.points);
+        let strains = self.points.iter().map(|p| p.crack_strain);
+        let scale = ColourScale::decades(SMALLEST_STRAIN, strains.fold(0.0, f64::max));
         self.draw_cracks(area, &frame, &scale)?;
-        self.draw_conditions(area, &frame)?;
+        frame.draw_conditions(area, self.supports, self.loads)?;
         frame.draw_axis(area)?;
-        let bottom = f64::from(self.size().1) - 42.0;
-        draw_legend(area, bottom)?;
-        scale.draw_bar(area, WIDTH - SIDE, bottom)
+        draw_legend(area, frame.legend_y())?;
+        scale.draw_bar(area, "crack strain", WIDTH - SIDE, frame.legend_y())
     }
 }
 
@@ -103,32 +92,6 @@ impl CrackView<'_> {
         }
         Ok(())
     }
-
-    /// Supports as triangles, loads as arrows.
-    fn draw_conditions<DB: DrawingBackend>(&self, area: &Area<'_, DB>, frame: &Frame) -> Drawn<DB> {
-        for &support in self.supports {
-            area.draw(&triangle(frame.at(support), 9.0, 14.0, INK))?;
-        }
-        for &load in self.loads {
-            let tip = frame.at(load);
-            let shaft = vec![(tip.0, tip.1 - units(34.0)), (tip.0, tip.1 - units(8.0))];
-            area.draw(&PathElement::new(shaft, line(GREEN, 2.5)))?;
-            area.draw(&triangle(tip, 6.0, -12.0, GREEN))?;
-        }
-        Ok(())
-    }
-}
-
-/// A triangle with its tip at a point, `height` downwards (pixels).
-fn triangle(
-    (x, y): (i32, i32),
-    half_width: f64,
-    height: f64,
-    colour: plotters::style::RGBColor,
-) -> Polygon<(i32, i32)> {
-    let base = y + units(height);
-    let (left, right) = (x - units(half_width), x + units(half_width));
-    Polygon::new(vec![(x, y), (left, base), (right, base)], colour.filled())
 }
 
 /// Explains bars, loads and crushing, at the lower left.
@@ -157,57 +120,6 @@ fn draw_legend<DB: DrawingBackend>(area: &Area<'_, DB>, y: f64) -> Drawn<DB> {
         SIDE + 264.0,
         "crushing, from the strength to the residual stress",
     )
-}
-
-/// How mm become drawing units.
-struct Frame {
-    low: [f64; 2],
-    high: [f64; 2],
-    /// Pixels per mm.
-    scale: f64,
-}
-
-impl Frame {
-    fn of(elements: &[[[f64; 2]; 2]]) -> Self {
-        let (mut low, mut high) = ([0.0, 0.0], [1.0, 1.0]);
-        for corners in elements {
-            for i in 0..2 {
-                low[i] = corners[0][i].min(low[i]);
-                high[i] = corners[1][i].max(high[i]);
-            }
-        }
-        let scale = (WIDTH - 2.0 * SIDE) / (high[0] - low[0]);
-        Self { low, high, scale }
-    }
-
-    fn at(&self, [x, y]: [f64; 2]) -> (i32, i32) {
-        let across = SIDE + self.scale * (x - self.low[0]);
-        let down = ABOVE + self.scale * (self.high[1] - y);
-        (units(across), units(down))
-    }
-
-    /// Positions along the beam, below it.
-    fn draw_axis<DB: DrawingBackend>(&self, area: &Area<'_, DB>) -> Drawn<DB> {
-        let y = self.at(self.low).1 + units(26.0);
-        let ends = [self.low, self.high].map(|p| (self.at(p).0, y));
-        area.draw(&PathElement::new(ends.to_vec(), line(GREY, 1.0)))?;
-        let style = placed(&text(GREY, 12.0), HPos::Center, VPos::Top);
-        let last = (self.high[0] / 500.0) as u32;
-        for tick in 0..=last {
-            let x = 500 * tick;
-            let at = (self.at([f64::from(x), 0.0]).0, y);
-            let end = (at.0, y + units(5.0));
-            area.draw(&PathElement::new(vec![at, end], line(GREY, 1.0)))?;
-            let unit = if tick == last { " mm" } else { "" };
-            let label = format!("{x}{unit}");
-            area.draw(&Text::new(
-                label,
-                (end.0, end.1 + units(2.0)),
-                style.clone(),
-            ))?;
-        }
-        Ok(())
-    }
 }
 
 #[cfg(test)]

@@ -1,11 +1,13 @@
 //! Protects the first hour of a new user: every mistake in an input gets one clear message with file,
 //! line, column, field, allowed range and remedy, a code other than 0, and changes no file.
 
+mod sheets;
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const BEAM: &str = include_str!("../specimens/A-SO3-1.ron");
+const BEAM: &str = include_str!("../../specimens/A-SO3-1.ron");
 
 fn rc_beams(arguments: &[&str], folder: &Path) -> Output {
     Command::new(env!("CARGO_BIN_EXE_rc-beams"))
@@ -24,15 +26,15 @@ fn message(output: &Output) -> String {
         .join(" ")
 }
 
-/// Runs a copy of A-SO3-1 with one text replaced; `from` also tells where the message must point.
-fn run_changed(from: &str, to: &str) -> (String, Option<i32>) {
+/// Runs a copy of a beam with one text replaced.
+fn run_changed(beam: &str, from: &str, to: &str) -> (String, Option<i32>) {
     let folder = tempfile::tempdir().unwrap();
     assert_eq!(
-        BEAM.matches(from).count(),
+        beam.matches(from).count(),
         1,
         "{from:?} must stand once in the file"
     );
-    fs::write(folder.path().join("beam.ron"), BEAM.replace(from, to)).unwrap();
+    fs::write(folder.path().join("beam.ron"), beam.replace(from, to)).unwrap();
     let output = rc_beams(&["run", "beam.ron"], folder.path());
     let left: Vec<_> = fs::read_dir(folder.path())
         .unwrap()
@@ -44,8 +46,8 @@ fn run_changed(from: &str, to: &str) -> (String, Option<i32>) {
 }
 
 /// `beam.ron:line:column` of `what` inside the changed text.
-fn place(from: &str, to: &str, what: &str) -> String {
-    let text = BEAM.replace(from, to);
+fn place(beam: &str, from: &str, to: &str, what: &str) -> String {
+    let text = beam.replace(from, to);
     let at = text.find(to).unwrap() + to.find(what).unwrap();
     let line = text[..at].matches('\n').count() + 1;
     let column = text[..at].chars().rev().take_while(|c| *c != '\n').count() + 1;
@@ -307,8 +309,12 @@ const CASES: &[Case] = &[
 
 #[test]
 fn mistakes_in_a_file_are_named_with_their_place() {
-    for (from, to, what, words) in CASES {
-        let (message, code) = run_changed(from, to);
+    check_cases(BEAM, CASES);
+}
+
+fn check_cases(beam: &str, cases: &[Case]) {
+    for (from, to, what, words) in cases {
+        let (message, code) = run_changed(beam, from, to);
         assert_eq!(code, Some(3), "{to:?}: {message}");
         for words in *words {
             assert!(
@@ -319,7 +325,7 @@ fn mistakes_in_a_file_are_named_with_their_place() {
         let place = if what.is_empty() {
             "[beam.ron:".into()
         } else {
-            place(from, to, what)
+            place(beam, from, to, what)
         };
         assert!(
             message.contains(&place),
@@ -332,6 +338,10 @@ fn mistakes_in_a_file_are_named_with_their_place() {
 /// Arguments, exit code, words of the message.
 type Arguments = (&'static [&'static str], i32, &'static [&'static str]);
 
+const STAGED: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/specimens/examples/A-SO3-4-staged.ron"
+);
 const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/cyclic-bar.ron");
 
 const COMMANDS: &[Arguments] = &[
@@ -476,18 +486,35 @@ fn the_beams_of_the_program_are_listed_and_pass_their_checks() {
         .skip(1)
         .filter_map(|line| line.split_whitespace().next())
         .collect();
-    assert_eq!(beams.len(), 7, "{table}");
+    assert_eq!(beams.len(), 21, "{table}");
     let checked = rc_beams(&[&["check"], &beams[..]].concat(), folder.path());
     assert_eq!(checked.status.code(), Some(0), "{}", message(&checked));
     assert_eq!(
         String::from_utf8_lossy(&checked.stdout)
             .matches(": ok, beam ")
             .count(),
-        7
+        21
     );
+    let example = rc_beams(&["check", STAGED], folder.path());
+    assert_eq!(example.status.code(), Some(0), "{}", message(&example));
     let json = rc_beams(&["list", "--json"], folder.path());
     let rows: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
     assert_eq!(rows[0]["name"], "A-SO3-1");
     assert_eq!(rows[0]["test_load_kn"], 151.0);
-    assert_eq!(rows[6]["test_load_kn"], serde_json::Value::Null);
+    assert_eq!(rows[20]["test_load_kn"], serde_json::Value::Null);
+    let strengthening = |beam: &str| {
+        let mut rows = rows.as_array().unwrap().iter();
+        let row = rows.find(|row| row["name"] == beam).unwrap();
+        row["strengthening"].as_str().unwrap().to_owned()
+    };
+    for (beam, words) in [
+        ("A-SO3-1", "none"),
+        ("A-SO3-3", "U 90, strips of 75 mm"),
+        ("A-SO3-4", "U 90"),
+        ("A-SW4-2", "U 90/0"),
+        ("B-CO2", "U 90, strips of 50 mm"),
+        ("B-CF4", "full wrap 90"),
+    ] {
+        assert_eq!(strengthening(beam), words, "{beam}");
+    }
 }

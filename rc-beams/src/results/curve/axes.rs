@@ -1,0 +1,50 @@
+//! Axes of deflection and load.
+
+use plotters::chart::{ChartBuilder, ChartContext, LabelAreaPosition};
+use plotters::coord::types::RangedCoordf64;
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters::prelude::{Cartesian2d, DrawingBackend};
+use plotters::style::{Color, WHITE};
+
+use crate::results::drawing::{Area, line, text, units};
+use crate::results::palette::{FAINT, INK};
+
+/// A chart of load (kN) over deflection (mm).
+pub(super) type Chart<'c, DB> = ChartContext<'c, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// Draws axes from 0 to `ends`, with margins at the top and the right (drawing units).
+pub(super) fn axes<'c, DB: DrawingBackend>(
+    area: &Area<'c, DB>,
+    (top, right): (i32, i32),
+    (x_end, y_end): (f64, f64),
+) -> Result<Chart<'c, DB>, DrawingAreaErrorKind<DB::ErrorType>> {
+    let mut chart = ChartBuilder::on(area)
+        .margin_top(top)
+        .margin_right(right)
+        .margin_bottom(units(8.0))
+        .margin_left(units(8.0))
+        .set_label_area_size(LabelAreaPosition::Left, units(58.0))
+        .set_label_area_size(LabelAreaPosition::Bottom, units(46.0))
+        .build_cartesian_2d(0.0..x_end, 0.0..y_end)?;
+    chart
+        .configure_mesh()
+        .bold_line_style(line(FAINT, 0.75))
+        .light_line_style(WHITE.mix(0.0))
+        .axis_style(line(INK, 1.0))
+        .label_style(text(INK, 13.0))
+        .axis_desc_style(text(INK, 14.0))
+        .set_all_tick_mark_size(units(4.0))
+        .x_labels(10)
+        .y_labels(10)
+        .x_label_formatter(&|value| short(*value))
+        .y_label_formatter(&|value| short(*value))
+        .x_desc("deflection [mm]")
+        .y_desc("load [kN]")
+        .draw()?;
+    Ok(chart)
+}
+
+/// A number at an axis, without zeros at its end.
+fn short(value: f64) -> String {
+    ((value * 1e3).round() / 1e3).to_string()
+}

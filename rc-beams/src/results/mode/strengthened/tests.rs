@@ -1,0 +1,165 @@
+//! Protects the table of the module: a history per row, on both sides of every threshold.
+//! Source of the histories: loss of sheet force, debonded share and ratio of computed beams of series A.
+use super::*;
+use crate::results::mode::tests::{layout, open, peak};
+use crate::results::sheets::ZoneDrop;
+
+/// A drop in the right shear span, where a diagonal crack opens.
+fn drop(loss: f64, debonded: f64) -> SheetDrop {
+    SheetDrop {
+        spans: vec![
+            SpanDrop {
+                force_kn: [40.0, 40.0],
+                debonded: Some([0.0, 0.0]),
+                stirrups: 6,
+            },
+            SpanDrop {
+                force_kn: [100.0, 100.0 * (1.0 - loss)],
+                debonded: Some([0.04, debonded]),
+                stirrups: 0,
+            },
+        ],
+        complete: true,
+        end_load_kn: 188.0,
+        utilisation: 0.4,
+        zone: Some(ZoneDrop {
+            name: "strip 9".to_owned(),
+            debonded: 0.62,
+            slip_max_mm: 0.171,
+        }),
+    }
+}
+
+fn states() -> (Snapshot, Snapshot) {
+    let mut end = peak();
+    open(&mut end, 24, 45.0);
+    (peak(), end)
+}
+
+fn judge(states: &(Snapshot, Snapshot), drop: &SheetDrop, ratio: Option<f64>) -> FailureMode {
+    Diagnosis::strengthened(&layout(), (&states.0, &states.1), 0.2, drop, ratio).mode
+}
+
+#[test]
+fn loss_of_force_and_debonded_share_decide_between_bond_and_concrete() {
+    use FailureMode::{ConcreteSplitting, Debonding, Mixed};
+    for (loss, debonded, expected) in [
+        (0.45, 0.48, Debonding),
+        (0.51, 0.37, Debonding),
+        (0.83, 0.90, Debonding),
+        (0.401, 0.351, Debonding),
+        (0.399, 0.9, Mixed),
+        (0.9, 0.349, Mixed),
+        (0.251, 0.31, Mixed),
+        (0.249, 0.31, ConcreteSplitting),
+        (0.18, 0.19, ConcreteSplitting),
+        (0.0, 0.31, ConcreteSplitting),
+        (-0.1, 0.9, ConcreteSplitting),
+    ] {
+        let found = judge(&states(), &drop(loss, debonded), None);
+        assert_eq!(found, expected, "loss {loss}, debonded {debonded}");
+    }
+}
+
+#[test]
+fn the_peak_with_perfect_bond_confirms_or_contradicts() {
+    use FailureMode::{ConcreteSplitting, Debonding, Mixed};
+    for (loss, ratio, expected) in [
+        (0.5, 1.27, Debonding),
+        (0.5, 1.081, Debonding),
+        (0.5, 1.079, Mixed),
+        (0.1, 1.01, ConcreteSplitting),
+        (0.1, 1.149, ConcreteSplitting),
+        (0.1, 1.151, Mixed),
+    ] {
+        let found = judge(&states(), &drop(loss, 0.5), Some(ratio));
+        assert_eq!(found, expected, "loss {loss}, ratio {ratio}");
+    }
+}
+
+#[test]
+fn a_sheet_that_ruptures_by_the_peak_is_rupture_whatever_follows() {
+    let mut ruptured = drop(0.9, 0.9);
+    ruptured.utilisation = 1.0;
+    assert_eq!(judge(&states(), &ruptured, None), FailureMode::SheetRupture);
+    ruptured.utilisation = 0.999;
+    assert_eq!(judge(&states(), &ruptured, None), FailureMode::Debonding);
+}
+
+#[test]
+fn yielding_bars_with_vertical_cracks_are_flexure_unless_the_bond_fails_too() {
+    let mut states = (peak(), peak());
+    states.0.bars[1].utilisation = 1.0;
+    open(&mut states.1, 15, 5.0);
+    assert_eq!(judge(&states, &drop(0.1, 0.1), None), FailureMode::Flexure);
+    // No diagonal crack grows: the bond of the test span is looked at, and there is none here.
+    let mut failing = drop(0.1, 0.1);
+    open(&mut states.1, 24, 45.0);
+    for i in 10..15 {
+        open(&mut states.1, i, 5.0);
+    }
+    assert_eq!(judge(&states, &failing, None), FailureMode::Flexure);
+    failing = drop(0.6, 0.6);
+    assert_eq!(judge(&states, &failing, None), FailureMode::Mixed);
+    states.0.bars[1].utilisation = 0.99;
+    assert_eq!(judge(&states, &failing, None), FailureMode::Debonding);
+}
+
+#[test]
+fn crushing_behind_bonded_sheets_keeps_its_place() {
+    let mut web = states();
+    web.0.concrete[24].crushing = 0.1;
+    assert_eq!(judge(&web, &drop(0.1, 0.1), None), FailureMode::WebCrushing);
+    assert_eq!(judge(&web, &drop(0.6, 0.6), None), FailureMode::Mixed);
+    // Most cracks grow between the loads, where the concrete crushes.
+    let mut crushing = states();
+    for i in 12..15 {
+        open(&mut crushing.1, i, 5.0);
+    }
+    crushing.1.concrete[15].crushing = 0.5;
+    let found = judge(&crushing, &drop(0.1, 0.1), None);
+    assert_eq!(found, FailureMode::ConcreteCrushing);
+}
+
+#[test]
+fn a_drop_that_is_not_complete_decides_debonding_alone() {
+    let mut short = drop(0.1, 0.1);
+    short.complete = false;
+    assert_eq!(judge(&states(), &short, None), FailureMode::Undecided);
+    let mut short = drop(0.6, 0.6);
+    short.complete = false;
+    assert_eq!(judge(&states(), &short, None), FailureMode::Debonding);
+    let (before, after) = states();
+    let states = (&before, &after);
+    let none = Diagnosis::strengthened(&layout(), states, 0.049, &short, None);
+    assert_eq!(none.mode, FailureMode::None);
+}
+
+#[test]
+fn a_span_without_sheets_fails_like_a_bare_beam() {
+    let mut bare = drop(0.6, 0.6);
+    bare.spans[1].debonded = None;
+    assert_eq!(judge(&states(), &bare, None), FailureMode::DiagonalTension);
+    // The span whose cracks grow decides, not the one that debonds.
+    let mut left = (peak(), peak());
+    open(&mut left.1, 4, 45.0);
+    let found = judge(&left, &drop(0.6, 0.6), None);
+    assert_eq!(found, FailureMode::ConcreteSplitting);
+}
+
+#[test]
+fn the_evidence_is_one_line_with_numbers() {
+    let (before, after) = states();
+    let states = (&before, &after);
+    let diagnosis = Diagnosis::strengthened(&layout(), states, 0.21, &drop(0.45, 0.48), Some(1.27));
+    assert_eq!(diagnosis.counterfactual_ratio, Some(1.27));
+    assert_eq!(
+        diagnosis.mode_evidence,
+        "load falls by 21.0 %; sheet force in the right shear span 100.0 kN at the peak, 55.0 kN at 188 kN \
+         (-45 %); 48 % of its side debonded then, 4 % at the peak; slip up to 0.171 mm, beyond s_f over \
+         62 % of strip 9; sheets used to 40 %; perfect bond would carry 1.27 times the peak; no stirrups in \
+         the span; 100 % of the crack growth is diagonal (most in the right shear span); bottom bars reach \
+         0.60 fy by the peak at x = 1500 mm; 0.0 % of a web past its strength at the peak; crushing grows by \
+         0.00 % of the concrete; 0 of 12 stirrups yield"
+    );
+}

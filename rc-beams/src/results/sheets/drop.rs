@@ -1,0 +1,104 @@
+//! What the sheets lose while the load falls from its peak.
+
+use fe_solver::capacity::{CAPACITY_FALL, Capacity, PathPoint};
+
+use super::{SheetLayout, SheetRow};
+
+/// Index of the first point after the peak at which the load is at most 0.8 of it; none while the load is above.
+pub fn end_of_drop(path: &[PathPoint], capacity: &Capacity) -> Option<usize> {
+    let peak = path.get(capacity.peak)?.load;
+    let after = path.iter().enumerate().skip(capacity.peak + 1);
+    after
+        .take_while(|(_, p)| p.load <= peak)
+        .find(|(_, p)| p.load <= (1.0 - CAPACITY_FALL) * peak)
+        .map(|(i, _)| i)
+}
+
+/// A shear span, at the peak and at the end of the drop.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct SpanDrop {
+    /// Force SVf of the sheets (kN).
+    pub force_kn: [f64; 2],
+    /// Debonded share of the side; none where the span has no bonded side.
+    pub debonded: Option<[f64; 2]>,
+    /// Stirrups in the span.
+    pub stirrups: usize,
+}
+
+impl SpanDrop {
+    /// Loss of force relative to that at the peak, negative where it grows; 0 where the sheets are idle at the peak.
+    pub fn loss(&self) -> f64 {
+        let [peak, end] = self.force_kn;
+        if peak > 0.0 { (peak - end) / peak } else { 0.0 }
+    }
+}
+
+/// The zone that is debonded most at the end of the drop.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ZoneDrop {
+    /// Name.
+    pub name: String,
+    /// Debonded share.
+    pub debonded: f64,
+    /// Largest slip so far (mm).
+    pub slip_max_mm: f64,
+}
+
+/// What the sheets lose from the peak to 0.8 of it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SheetDrop {
+    /// Shear spans.
+    pub spans: Vec<SpanDrop>,
+    /// Whether the load fell to 0.8 of the peak; else the end is the last step.
+    pub complete: bool,
+    /// Load at the end of the drop (kN).
+    pub end_load_kn: f64,
+    /// Largest utilisation of a sheet up to the peak.
+    pub utilisation: f64,
+    /// The zone that is debonded most at the end.
+    pub zone: Option<ZoneDrop>,
+}
+
+impl SheetDrop {
+    /// Reads the rows of a run, one per point of its path (self weight is none); `None` without the row of
+    /// the peak.
+    pub fn of(
+        sheets: &SheetLayout,
+        rows: &[SheetRow],
+        path: &[PathPoint],
+        capacity: &Capacity,
+    ) -> Option<Self> {
+        let end = end_of_drop(path, capacity);
+        let peak = rows.get(capacity.peak)?;
+        let last = match end {
+            Some(i) => rows.get(i)?,
+            None => rows.last()?,
+        };
+        let spans = peak.spans.iter().zip(&last.spans).enumerate();
+        let spans = spans.map(|(i, (before, after))| SpanDrop {
+            force_kn: [before.force_kn, after.force_kn],
+            debonded: before.debonded.zip(after.debonded).map(<[f64; 2]>::from),
+            stirrups: sheets.stirrups_in_spans.get(i).copied().unwrap_or(0),
+        });
+        let zones = sheets.zones.iter().zip(&last.zones);
+        let zones = zones.filter_map(|(zone, reading)| {
+            Some(ZoneDrop {
+                name: zone.name.clone(),
+                debonded: reading.debonded?,
+                slip_max_mm: reading.slip_max_mm,
+            })
+        });
+        Some(Self {
+            spans: spans.collect(),
+            complete: end.is_some(),
+            end_load_kn: last.load_kn,
+            utilisation: rows[..=capacity.peak]
+                .iter()
+                .map(|r| r.utilisation)
+                .fold(0.0, f64::max),
+            zone: zones
+                .filter(|z| z.debonded > 0.0)
+                .max_by(|a, b| a.debonded.total_cmp(&b.debonded)),
+        })
+    }
+}

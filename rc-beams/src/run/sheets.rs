@@ -1,0 +1,92 @@
+//! Sheets and their bond, read off a state of the model.
+
+use fe_contact::SlipDamage;
+use fe_core::model::{Model, ModelError};
+use fe_core::state::StateStore;
+use nalgebra::Vector3;
+
+use super::evidence::is_stirrup;
+use crate::build::{BarKind, Beam, SheetRecord};
+use crate::results::evidence::Layout;
+use crate::results::sheets::{Face, InterfacePoint, SheetLayout, SheetPoint, SheetState, Zone};
+use crate::spec;
+
+/// Zones of the sheets and stirrups of the shear spans.
+pub(super) fn layout(beam: &Beam, layout: &Layout) -> SheetLayout {
+    let zones = beam.sheets.iter().flat_map(|s| &s.zones);
+    let mut stirrups_in_spans = vec![0; layout.shear_spans.len()];
+    for bar in &beam.bars {
+        if let (BarKind::StirrupLeg(x), true) = (bar.kind, is_stirrup(bar.kind)) {
+            if let Some(span) = layout.span_at(x) {
+                stirrups_in_spans[span] += 1;
+            }
+        }
+    }
+    SheetLayout {
+        zones: zones
+            .map(|z| Zone {
+                name: z.name.clone(),
+                x_mm: [z.x_from_mm, z.x_to_mm],
+                y_mm: z.side_mm,
+            })
+            .collect(),
+        stirrups_in_spans,
+    }
+}
+
+/// Points of sheets and interfaces. Of several plies the first is shown: the one next to the concrete.
+pub(super) fn state(
+    sheets: &SheetRecord,
+    (model, u, state): (&Model, &[f64], &StateStore),
+) -> Result<SheetState, ModelError> {
+    let mut seen = SheetState::default();
+    let curve = sheets.bond.envelope();
+    let (s0_mm, sf_mm) = (curve.peak_slip(), curve.final_slip());
+    for cell in &sheets.cells {
+        let face = match cell.face {
+            spec::Face::Side => Face::Side,
+            spec::Face::Soffit => Face::Soffit,
+            spec::Face::Top => Face::Top,
+        };
+        let ply = cell
+            .laminate
+            .plies()
+            .first()
+            .map_or(0.0, |p| p.thickness_mm);
+        let thickness = cell.laminate.thickness_mm();
+        let own = model.gather(cell.membrane, u);
+        model.elements()[cell.membrane]
+            .sample(&own, state.committed(cell.membrane), &mut |s| {
+                let strain = Vector3::from_column_slice(s.strain);
+                seen.sheet.push(SheetPoint {
+                    position: s.position,
+                    zone: cell.zone,
+                    face,
+                    area_mm2: s.volume / thickness,
+                    thickness_mm: ply,
+                    fibre_stress_mpa: cell.laminate.fibre_stresses(&strain).next().unwrap_or(0.0),
+                    utilisation: s.report.utilisation,
+                });
+            })
+            .map_err(|source| model.locate(cell.membrane, source))?;
+        let Some(e) = cell.interface else {
+            continue;
+        };
+        let own = model.gather(e, u);
+        model.elements()[e]
+            .sample(&own, state.committed(e), &mut |s| {
+                seen.interface.push(InterfacePoint {
+                    position: s.position,
+                    zone: cell.zone,
+                    face,
+                    area_mm2: s.volume,
+                    slip_mm: s.strain[0].hypot(s.strain[1]),
+                    slip_max_mm: SlipDamage::slip_max(s.state),
+                    s0_mm,
+                    sf_mm,
+                });
+            })
+            .map_err(|source| model.locate(e, source))?;
+    }
+    Ok(seen)
+}

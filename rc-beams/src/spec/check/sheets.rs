@@ -1,0 +1,202 @@
+//! Fibre sheets lie on free faces of the beam, apart from each other, and gauges on them.
+
+use super::{ALONG, Checks, TOLERANCE};
+use crate::spec::sheets::{Cover, Face, SheetGauge, Stretch, Wrap};
+
+const FACE: &str = "on the side, from_mm and to_mm are heights above the soffit; on soffit and top, \
+                    distances from the middle of the width";
+
+/// A rectangle of sheet on a face.
+struct Patch<'a> {
+    /// The field of the cover.
+    path: String,
+    stretch: &'a Stretch,
+    cover: &'a Cover,
+}
+
+impl Patch<'_> {
+    /// Whether two covers lie on the same place of the same face. Stretches of one cover are compared where
+    /// their order is checked.
+    fn covers_twice(&self, other: &Self) -> bool {
+        self.path != other.path
+            && self.cover.face == other.cover.face
+            && overlap(self.along(), other.along())
+            && overlap(self.across(), other.across())
+    }
+
+    /// Whether a point (mm) of the face lies on the patch.
+    fn holds(&self, x: f64, across: f64) -> bool {
+        let within = |at, (from, to)| from - TOLERANCE <= at && at <= to + TOLERANCE;
+        within(x, self.along()) && within(across, self.across())
+    }
+
+    fn along(&self) -> (f64, f64) {
+        (self.stretch.x_from_mm.get(), self.stretch.x_to_mm.get())
+    }
+
+    fn across(&self) -> (f64, f64) {
+        (self.cover.from_mm.get(), self.cover.to_mm.get())
+    }
+}
+
+/// Whether two intervals share more than an end.
+fn overlap(a: (f64, f64), b: (f64, f64)) -> bool {
+    a.0 < b.1 - TOLERANCE && b.0 < a.1 - TOLERANCE
+}
+
+impl Checks<'_> {
+    pub(super) fn sheets(&mut self) {
+        let specimen = self.specimen;
+        let mut patches = Vec::new();
+        if let Some(sheets) = &specimen.sheets {
+            self.at_least_one("sheets.wraps", "wraps", sheets.wraps.len());
+            for (i, wrap) in sheets.wraps.iter().enumerate() {
+                let path = format!("sheets.wraps[{i}]");
+                let named = sheets.wraps[..i].iter().any(|w| w.name == wrap.name);
+                self.named_once(&path, "wraps", &wrap.name, named);
+                self.wrap(&path, wrap);
+                for (k, cover) in wrap.faces.iter().enumerate() {
+                    let path = format!("{path}.faces[{k}]");
+                    patches.extend(wrap.stretches.iter().map(|stretch| Patch {
+                        path: path.clone(),
+                        stretch,
+                        cover,
+                    }));
+                }
+            }
+            self.covered_once(&patches);
+        } else if specimen.staged.is_some() {
+            self.report(
+                "staged",
+                "sheets bonded under load, but no sheets; allowed: with `sheets` only",
+                "write `staged: None`, or give the sheets",
+            );
+        }
+        let gauges = &specimen.measuring.sheet_gauges;
+        for (i, gauge) in gauges.iter().enumerate() {
+            let path = format!("measuring.sheet_gauges[{i}]");
+            let named = gauges[..i].iter().any(|g| g.name == gauge.name);
+            self.named_once(&path, "gauges", &gauge.name, named);
+            self.gauge(&path, gauge, &patches);
+        }
+    }
+
+    fn at_least_one(&mut self, path: &str, what: &str, count: usize) {
+        if count == 0 {
+            let message = format!("{what}: 0; allowed: at least 1");
+            self.report(path, message, "give one, or remove what would hold it");
+        }
+    }
+
+    fn wrap(&mut self, path: &str, wrap: &Wrap) {
+        let (stretches, faces) = (&wrap.stretches, &wrap.faces);
+        self.at_least_one(&format!("{path}.stretches"), "stretches", stretches.len());
+        self.at_least_one(&format!("{path}.faces"), "faces", faces.len());
+        let length = self.length();
+        let mut end = 0.0;
+        for (i, stretch) in stretches.iter().enumerate() {
+            let path = format!("{path}.stretches[{i}]");
+            let (from, to) = (stretch.x_from_mm.get(), stretch.x_to_mm.get());
+            self.within(
+                format!("{path}.x_from_mm"),
+                ("left end of the stretch", from),
+                end..=length.max(end),
+                "stretches lie on the beam, each behind the one to its left",
+            );
+            let right = ("right end of the stretch", to);
+            self.within(format!("{path}.x_to_mm"), right, 0.0..=length, ALONG);
+            self.ascending(format!("{path}.x_to_mm"), from, to);
+            self.clear_of_plates(&path, (from, to), faces);
+            end = to;
+        }
+        for (i, cover) in faces.iter().enumerate() {
+            self.cover(&format!("{path}.faces[{i}]"), cover);
+        }
+    }
+
+    /// No sheet lies between a plate, or a stub, and the face it stands on.
+    fn clear_of_plates(&mut self, path: &str, sheet: (f64, f64), faces: &[Cover]) {
+        let specimen = self.specimen;
+        let below = specimen.supports.iter();
+        let below = below.map(|s| (Face::Soffit, "support", s.x_mm, &s.plate));
+        let above = specimen.loads.iter();
+        let above = above.map(|load| (Face::Top, "load", load.x_mm, &load.plate));
+        for (face, what, centre, plate) in below.chain(above) {
+            let half = 0.5 * plate.length_mm.get();
+            let (left, right) = (centre.get() - half, centre.get() + half);
+            if faces.iter().any(|cover| cover.face == face) && overlap(sheet, (left, right)) {
+                let (from, to) = sheet;
+                self.report(
+                    path,
+                    format!(
+                        "sheet on the {face:?} face from {from} to {to} mm, across the {what}; allowed: up to \
+                         {left} mm or from {right} mm"
+                    ),
+                    "end the stretch at the plate and begin another behind it",
+                );
+            }
+        }
+    }
+
+    fn cover(&mut self, path: &str, cover: &Cover) {
+        let width = match cover.face {
+            Face::Side => self.height(),
+            Face::Soffit | Face::Top => self.half_width(),
+        };
+        let (from, to) = (cover.from_mm.get(), cover.to_mm.get());
+        let edge = ("edge of the sheet", to);
+        self.within(format!("{path}.to_mm"), edge, 0.0..=width, FACE);
+        self.ascending(format!("{path}.to_mm"), from, to);
+        let plies = cover.angles_deg.len();
+        self.at_least_one(&format!("{path}.angles_deg"), "plies", plies);
+        let whole = 2.0 * (to - from).max(0.0);
+        if let Some(overlap) = cover.overlap_mm
+            && overlap.get() > whole + TOLERANCE
+        {
+            let overlap = overlap.get();
+            self.report(
+                format!("{path}.overlap_mm"),
+                format!("sheet lies twice over {overlap} mm; allowed: up to {whole} mm, its width"),
+                "write another ply if the sheet lies twice everywhere",
+            );
+        }
+    }
+
+    fn covered_once(&mut self, patches: &[Patch]) {
+        let mut reported = "";
+        for (i, patch) in patches.iter().enumerate() {
+            if patch.path == reported {
+                continue;
+            }
+            if let Some(other) = patches[..i].iter().find(|other| patch.covers_twice(other)) {
+                let (from, to) = patch.along();
+                self.report(
+                    &patch.path,
+                    format!(
+                        "{:?} face covered twice between {from} and {to} mm, also by {}; allowed: once",
+                        patch.cover.face, other.path
+                    ),
+                    "list all plies of a place in one `angles_deg`",
+                );
+                reported = &patch.path;
+            }
+        }
+    }
+
+    fn gauge(&mut self, path: &str, gauge: &SheetGauge, patches: &[Patch]) {
+        let (x, y, z) = (gauge.x_mm.get(), gauge.y_mm.get(), gauge.z_mm.get());
+        let half = self.half_width();
+        let side = "gauges are on the side face, half of the width from its middle";
+        self.within(format!("{path}.z_mm"), ("gauge", z), half..=half, side);
+        let covers = |p: &Patch| p.cover.face == Face::Side && p.holds(x, y);
+        if !patches.iter().any(covers) {
+            self.report(
+                format!("{path}.x_mm"),
+                format!(
+                    "no sheet at x = {x} mm, y = {y} mm; allowed: where a sheet covers the side"
+                ),
+                "move the gauge onto a sheet, for instance to the middle of the nearest strip",
+            );
+        }
+    }
+}
