@@ -61,7 +61,7 @@ impl Point {
 /// the jump is d = sum N_a u_a (bar) - sum N_b(x) u_b (host); along the axis t of the bar the law answers the slip
 /// s = t . d, across it an elastic stiffness holds the bar:
 ///
-/// $$ f = \int \pi \phi\, B^T (\tau(s)\, t + K_t\, (1 - t t^T)\, d)\, dl, $$
+/// $$ f = \int \pi \phi B^T (\tau(s) t + K_t (1 - t t^T) d) dl, $$
 ///
 /// with 3 Gauss points. The law is driven with the jump (s, 0, 0): what it does along its normal plays no part.
 /// The stiffness of the bar itself is that of a truss on the same three nodes. Cut the bar where it crosses from

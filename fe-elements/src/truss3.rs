@@ -23,7 +23,7 @@ struct Point {
 
 /// Quadratic bar in space, ends first, then the middle; axial strain only, 2 Gauss points:
 ///
-/// $$ \varepsilon = \sum_a \frac{dN_a}{ds}\, t \cdot u_a, \qquad f = \int A\, B^T \sigma\, ds. $$
+/// $$ \varepsilon = \sum_a \frac{dN_a}{ds} t \cdot u_a, \qquad f = \int A B^T \sigma ds. $$
 ///
 /// It has no stiffness across its axis: something else must hold it there, a bond element for instance.
 #[derive(Debug)]
