@@ -90,7 +90,7 @@ impl Point {
 /// the lower face by its node order (outward for the faces of a hexahedron, to which a sheet is then the
 /// upper face), t1 a given direction projected onto the face, t2 = n x t1. Opening is positive.
 ///
-/// $$ f = \sum w J\, B^T t(d), \qquad K = \sum w J\, B^T D B $$
+/// $$ f = \sum w J B^T t(d), \qquad K = \sum w J B^T D B $$
 ///
 /// Traction t (MPa) and D (MPa/mm) come from a law over [`Interface`]. The geometry is that of the lower face;
 /// the upper one may coincide with it or lie at a distance, which must then be small against the size of
@@ -253,6 +253,10 @@ impl Element for Interface16 {
             }
         }
         Ok(())
+    }
+
+    fn interface_face(&self) -> Option<[NodeId; 8]> {
+        Some(std::array::from_fn(|a| self.nodes[a]))
     }
 
     fn unsymmetric(&self) -> bool {

@@ -9,8 +9,11 @@
 //! - [`SlipDamage`] is the law of bonded sheets: damage that grows with the slip, after one of the curves in
 //!   [`envelope`]; [`PullOut`] is the closed form of what it does to a strip.
 //! - [`MixedMode`] is the law of delamination in opening and shear.
-//! - [`Interface16`] is the element between two 8-node faces.
+//! - [`Viscous`] gives a law artificial viscosity, and counts what it costs.
+//! - [`Interface16`] is the element between two 8-node faces, [`BondSlip`] the one between a bar and the
+//!   hexahedra around it.
 
+mod bond_slip;
 pub mod envelope;
 mod interface16;
 mod limits;
@@ -18,9 +21,11 @@ mod mixed_mode;
 mod normal;
 mod pull_out;
 mod slip_damage;
+mod viscous;
 
 use fe_core::kinematics::Kinematics;
 
+pub use bond_slip::{BondSlip, BondSlipBar};
 pub use envelope::Envelope;
 pub use fe_core::kinematics::Interface;
 pub use interface16::{Interface16, InterfaceRule};
@@ -28,6 +33,7 @@ pub use mixed_mode::{MixedMode, MixedModeParameters};
 pub use normal::{BondSettings, Normal};
 pub use pull_out::PullOut;
 pub use slip_damage::SlipDamage;
+pub use viscous::Viscous;
 
 /// Splits a jump (mm) into the length of its slip, sqrt(s_1^2 + s_2^2), and its opening (mm), negative in
 /// contact.

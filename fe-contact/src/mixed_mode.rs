@@ -42,13 +42,13 @@ const fn residual() -> f64 {
     1e-6
 }
 
-/// Bilinear law in the effective jump delta = sqrt(<n>^2 + |s|^2), n being the opening and s the slip.
+/// Bilinear law in the effective jump delta = sqrt(max(n, 0)^2 + |s|^2), n being the opening and s the slip.
 ///
 /// With the share of shear b = |s|^2/delta^2 and the jumps at onset of the pure modes, n_0 = t_n/K and
 /// s_0 = t_s/K:
 ///
 /// $$ \delta_0 = \Bigl(\frac{1-b}{n_0^2} + \frac{b}{s_0^2}\Bigr)^{-1/2}, \qquad
-/// G_c = G_{Ic} + (G_{IIc} - G_{Ic})\, b^\eta, \qquad \delta_f = \frac{2 G_c}{K \delta_0}, $$
+/// G_c = G_{Ic} + (G_{IIc} - G_{Ic}) b^\eta, \qquad \delta_f = \frac{2 G_c}{K \delta_0}, $$
 ///
 /// d* = delta_f (delta - delta_0)/(delta (delta_f - delta_0)) between delta_0 and delta_f, and the damage d is the
 /// largest d* of the history. t = (1 - d) K (s, n) in opening; in contact the normal keeps K.

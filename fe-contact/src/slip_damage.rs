@@ -25,7 +25,7 @@ const STATE_VARS: [StateVar; 2] = [
 /// With the slip s = (s_1, s_2), kappa = max |s| over the history and the curve tau_env of an
 /// [`Envelope`] of initial stiffness K0,
 ///
-/// $$ \tau = (1 - d)\,K_0\,s, \qquad 1 - d(\kappa) = \max\Bigl(r,
+/// $$ \tau = (1 - d) K_0 s, \qquad 1 - d(\kappa) = \max\Bigl(r,
 /// \frac{\tau_\mathrm{env}(\kappa)}{K_0 \kappa}\Bigr), $$
 ///
 /// with the residual r of [`BondSettings`]; along the normal see [`Normal`]. A slip in any direction of the

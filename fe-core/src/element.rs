@@ -52,7 +52,7 @@ pub struct ElementSystem<'a> {
 pub struct PointSample<'a> {
     /// Position (mm).
     pub position: [f64; 3],
-    /// Volume the point stands for (mm3).
+    /// Volume the point stands for (mm3), or area (mm2) in an interface.
     pub volume: f64,
     /// Strain components, in the order of the law's kinematics.
     pub strain: &'a [f64],
@@ -167,6 +167,12 @@ pub trait Element: Debug + Send + Sync {
     /// The cell to draw the element as, on its own nodes in that order; `None` for an element that draws
     /// [segments](Self::segments) or nothing.
     fn cell(&self) -> Option<CellKind> {
+        None
+    }
+
+    /// Nodes of the 8-node quadrilateral to draw an interface as, see
+    /// [`interface_grid`](crate::output::interface_grid); `None` for everything that is no interface between faces.
+    fn interface_face(&self) -> Option<[NodeId; 8]> {
         None
     }
 

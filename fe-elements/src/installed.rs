@@ -78,6 +78,10 @@ impl Element for Installed {
         self.element.cell()
     }
 
+    fn interface_face(&self) -> Option<[NodeId; 8]> {
+        self.element.interface_face()
+    }
+
     fn unsymmetric(&self) -> bool {
         self.element.unsymmetric()
     }

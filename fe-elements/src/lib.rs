@@ -11,6 +11,7 @@ pub mod quad8;
 pub mod sheet;
 pub mod shell8;
 mod surface;
+pub mod truss3;
 
 use fe_core::points;
 
@@ -21,3 +22,4 @@ pub use membrane8::Membrane8;
 pub use quad8::{Quad8, QuadRule};
 pub use sheet::Sheet;
 pub use shell8::{Layer, Shell8, ShellSection};
+pub use truss3::Truss3;

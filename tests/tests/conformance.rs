@@ -13,7 +13,7 @@ use fe_core::shape::{hex20, quad8};
 use fe_core::testing::{ElementCheck, check_element};
 use fe_elements::{
     BandWidth, Bar, Dowel, Hex20, HexRule, Layer, Membrane8, Quad8, QuadRule, Shell8, ShellSection,
-    embed,
+    Truss3, embed,
 };
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 use fe_materials::{Biso, Elastic, VonMises};
@@ -85,6 +85,27 @@ fn embedded_bars() {
             assert_eq!(elements.len(), 1);
             let element: &dyn Element = &elements[0];
             check_element(element, &coords, &ElementCheck::new(0.1)).unwrap();
+        }
+    }
+}
+
+/// Bars with nodes of their own, straight and curved.
+#[test]
+fn trusses() {
+    let laws: [Arc<dyn Material<Axial>>; 2] = [
+        Arc::new(Elastic::new(200e3, 0.0).unwrap()),
+        Arc::new(Biso::hot_rolled(200e3, 460.0, 2000.0).unwrap()),
+    ];
+    for law in laws {
+        for middle in [[2.0, -1.0, 0.5], [3.0, 1.0, 0.0]] {
+            let coords = [[-18.0, -15.0, -17.0], [22.0, 13.0, 18.0], middle];
+            let element = Truss3::new([0, 1, 2], &coords, 201.0, Arc::clone(&law)).unwrap();
+            let check = ElementCheck {
+                // A whole bar yields at one of two points: every yield is a kink.
+                kink_share: 0.2,
+                ..ElementCheck::new(0.1)
+            };
+            check_element(&element, &coords, &check).unwrap();
         }
     }
 }

@@ -3,12 +3,14 @@
 mod bilinear;
 mod exponential;
 mod lu;
+mod model_code;
 
 use std::fmt::Debug;
 
 pub use bilinear::{Bilinear, BilinearEnergy, BilinearSlips};
 pub use exponential::{Exponential, ExponentialParameters};
 pub use lu::{LuJoint, LuPrecise, LuSimplified};
+pub use model_code::{Bond, Confinement, ModelCode, ModelCodeParameters};
 
 /// Bond stress tau (MPa) over the slip s (mm) of a monotone path.
 ///

@@ -1,12 +1,13 @@
 //! Files that ParaView and other readers of VTK formats open.
 //!
-//! A [`FieldSeries`] writes the fields of a model step by step: one `.vtu` of cells, one of bars, and a
-//! `.pvd` collection that ties them to a time. Every file is written beside its final place and then
+//! A [`FieldSeries`] writes the fields of a model step by step: one `.vtu` of cells, one of bars, one of
+//! interfaces, and a `.pvd` collection that ties them to a time. Every file is written beside its final place and then
 //! renamed, so that a run killed at any moment leaves complete files and a readable collection.
 
 mod bars;
 mod cells;
 mod error;
+mod interfaces;
 mod pvd;
 mod series;
 mod vtu;
@@ -14,6 +15,7 @@ mod vtu;
 pub use bars::bar_grid;
 pub use cells::cell_grid;
 pub use error::OutputError;
+pub use interfaces::interface_grid;
 pub use pvd::Pvd;
 pub use series::FieldSeries;
 pub use vtu::{DataArray, UnstructuredGrid};

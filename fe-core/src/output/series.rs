@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use super::error::OutputError;
 use super::pvd::Pvd;
-use super::{bar_grid, cell_grid, write_atomically};
+use super::{bar_grid, cell_grid, interface_grid, write_atomically};
 use crate::model::Model;
 use crate::state::StateStore;
 
-/// Writes `NAME.pvd`, and for each recorded step `NAME_0001.vtu` (cells, part 0) and `NAME_bars_0001.vtu`
-/// (bars, part 1; only where there are some) into one folder.
+/// Writes `NAME.pvd`, and for each recorded step `NAME_0001.vtu` (cells) and, where there are some,
+/// `NAME_bars_0001.vtu` (bars) and `NAME_interfaces_0001.vtu` (interfaces) into one folder: parts 0, 1, 2 of the
+/// collection in that order.
 #[derive(Debug)]
 pub struct FieldSeries {
     folder: PathBuf,
@@ -49,10 +50,14 @@ impl FieldSeries {
         let (name, number) = (&self.name, self.recorded);
         let mut files = vec![format!("{name}_{number:04}.vtu")];
         let mut grids = vec![cell_grid(model, u, state)?];
-        let bars = bar_grid(model, u, state)?;
-        if bars.cells() > 0 {
-            files.push(format!("{name}_bars_{number:04}.vtu"));
-            grids.push(bars);
+        for (kind, grid) in [
+            ("bars", bar_grid(model, u, state)?),
+            ("interfaces", interface_grid(model, u, state)?),
+        ] {
+            if grid.cells() > 0 {
+                files.push(format!("{name}_{kind}_{number:04}.vtu"));
+                grids.push(grid);
+            }
         }
         for (file, grid) in files.iter().zip(&grids) {
             write_atomically(&self.folder.join(file), |out| grid.write(out))?;

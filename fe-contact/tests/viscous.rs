@@ -1,0 +1,83 @@
+//! Protects [`Viscous`]: no change at a share of 1, account of energy, tangent.
+//!
+//! Targets: work = dissipation of the damage + energy in store, whatever the viscosity; the viscous part vanishes with finer
+//! steps of the same share, and tangent and energy agree with the contract of a law.
+
+use fe_contact::envelope::{Bilinear, LuJoint};
+use fe_contact::{BondSettings, SlipDamage, Viscous};
+use fe_core::material::{Material, MaterialError, Operator, PointContext};
+use nalgebra::Vector3;
+
+fn bond() -> Bilinear {
+    let joint = LuJoint {
+        ft_mpa: 2.2,
+        width_ratio: 0.5,
+    };
+    joint.bilinear().unwrap()
+}
+
+fn law(share: f64) -> Result<Viscous<SlipDamage>, MaterialError> {
+    Viscous::new(SlipDamage::new(bond(), BondSettings::default())?, share)
+}
+
+/// Monotone slip to 0.5 mm, beyond s_f, in `n` steps: work and viscous energy.
+fn pull(share: f64, n: u32) -> [f64; 2] {
+    let law = law(share).unwrap();
+    let mut state = vec![0.0; law.state_len()];
+    law.init_state(&mut state);
+    let (mut work, mut last) = (0.0, 0.0);
+    let step = 0.5 / f64::from(n);
+    for i in 1..=n {
+        let jump = Vector3::new(f64::from(i) * step, 0.0, 0.0);
+        let mut trial = vec![f64::NAN; state.len()];
+        let ctx = PointContext::new(1.0).with_operator(Operator::None);
+        let tau = law.update(&jump, &state, &mut trial, &ctx).unwrap().stress[0];
+        work += 0.5 * (tau + last) * step;
+        last = tau;
+        state = trial;
+    }
+    [work, law.viscous_energy(&state)]
+}
+
+#[test]
+fn energy_of_the_viscosity() {
+    use fe_contact::Envelope;
+    let [inviscid, none] = pull(1.0, 1000);
+    assert!((inviscid / bond().energy() - 1.0).abs() < 1e-4);
+    assert_eq!(none, 0.0);
+    let [work, viscous] = pull(0.1, 1000);
+    assert!(viscous > 0.01 * inviscid, "{viscous}");
+    // The excess of work is what the account says, up to the order of the step.
+    assert!(
+        ((work - inviscid) / viscous - 1.0).abs() < 0.15,
+        "{work} {inviscid} {viscous}"
+    );
+    let [_, finer] = pull(0.1, 4000);
+    assert!(finer < 0.3 * viscous, "{finer}");
+}
+
+#[test]
+fn tangent_is_that_of_the_lagging_damage() {
+    let law = law(0.3).unwrap();
+    let mut state = vec![0.0; law.state_len()];
+    let ctx = PointContext::new(1.0);
+    let at = |slip: f64, committed: &[f64], trial: &mut [f64]| {
+        law.update(&Vector3::new(slip, 0.0, 0.0), committed, trial, &ctx)
+            .unwrap()
+    };
+    let mut trial = state.clone();
+    at(0.08, &state, &mut trial);
+    state.clone_from(&trial);
+    let tangent = at(0.12, &state, &mut trial).tangent[(0, 0)];
+    let h = 1e-6;
+    let up = at(0.12 + h, &state, &mut trial).stress[0];
+    let down = at(0.12 - h, &state, &mut trial).stress[0];
+    assert!((tangent - (up - down) / (2.0 * h)).abs() < 1e-5);
+}
+
+#[test]
+fn impossible_shares_are_refused() {
+    for share in [0.0, 1.5, f64::NAN] {
+        assert!(matches!(law(share), Err(MaterialError::Parameter { .. })));
+    }
+}

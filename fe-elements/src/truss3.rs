@@ -1,0 +1,188 @@
+//! Bar with nodes of its own: the 3-node truss.
+
+use std::sync::Arc;
+
+use fe_core::dof::Dof;
+use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
+use fe_core::kinematics::Axial;
+use fe_core::material::{Material, Operator, PointContext};
+use fe_core::mesh::NodeId;
+use fe_core::points;
+use fe_core::shape::{line3, quadrature};
+use nalgebra::{Vector1, Vector3};
+
+/// One of the two Gauss points.
+#[derive(Debug, Clone)]
+struct Point {
+    position: [f64; 3],
+    /// Axial strain = `row` . u.
+    row: [f64; 9],
+    /// Volume the point stands for (mm3).
+    volume: f64,
+}
+
+/// Quadratic bar in space, ends first, then the middle; axial strain only, 2 Gauss points:
+///
+/// $$ \varepsilon = \sum_a \frac{dN_a}{ds} t \cdot u_a, \qquad f = \int A B^T \sigma ds. $$
+///
+/// It has no stiffness across its axis: something else must hold it there, a bond element for instance.
+#[derive(Debug)]
+pub struct Truss3 {
+    nodes: [NodeId; 3],
+    coords: [[f64; 3]; 3],
+    length: f64,
+    points: Vec<Point>,
+    law: Arc<dyn Material<Axial>>,
+}
+
+const DOFS: [Dof; 3] = Dof::DISPLACEMENTS;
+
+impl Truss3 {
+    /// A bar at `coords` (mm) of cross-section `area_mm2`.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Input`] for an area that is not positive, [`ElementError::Jacobian`] for a bar without length,
+    /// [`ElementError::Material`] when the law refuses the point.
+    pub fn new(
+        nodes: [NodeId; 3],
+        coords: &[[f64; 3]; 3],
+        area_mm2: f64,
+        law: Arc<dyn Material<Axial>>,
+    ) -> Result<Self, ElementError> {
+        if !(area_mm2.is_finite() && area_mm2 > 0.0) {
+            return Err(ElementError::Input {
+                what: "area_mm2".into(),
+                value: area_mm2,
+                allowed: "(0, inf)".into(),
+                remedy: "give a positive area".into(),
+            });
+        }
+        let mut points = Vec::new();
+        let mut length = 0.0;
+        for (point, (xi, w)) in quadrature::gauss_legendre(2).into_iter().enumerate() {
+            let (position, along, _, slopes) = line3::map(coords, xi);
+            let determinant = along.norm();
+            let chord = Vector3::from(coords[1]) - Vector3::from(coords[0]);
+            if determinant.is_nan() || along.dot(&chord) <= 0.0 {
+                return Err(ElementError::Jacobian { point, determinant });
+            }
+            let mut row = [0.0; 9];
+            for (a, slope) in slopes.iter().enumerate() {
+                for k in 0..3 {
+                    row[3 * a + k] = slope * along[k] / determinant.powi(2);
+                }
+            }
+            length += w * determinant;
+            points.push(Point {
+                position: position.into(),
+                row,
+                volume: area_mm2 * w * determinant,
+            });
+        }
+        law.admit(&PointContext::new(length))
+            .map_err(|source| ElementError::Material { point: 0, source })?;
+        Ok(Self {
+            nodes,
+            coords: *coords,
+            length,
+            points,
+            law,
+        })
+    }
+}
+
+impl Point {
+    fn strain(&self, u: &[f64]) -> Vector1<f64> {
+        Vector1::new(self.row.iter().zip(u).map(|(b, u)| b * u).sum())
+    }
+}
+
+impl Element for Truss3 {
+    fn nodes(&self) -> &[NodeId] {
+        &self.nodes
+    }
+
+    fn dofs(&self) -> &'static [Dof] {
+        &DOFS
+    }
+
+    fn state_len(&self) -> usize {
+        self.points.len() * self.law.state_len()
+    }
+
+    fn init_state(&self, state: &mut [f64]) {
+        points::init_state(self.law.as_ref(), state);
+    }
+
+    fn evaluate(
+        &self,
+        u: &[f64],
+        committed: &[f64],
+        trial: &mut [f64],
+        ctx: &EvaluationContext,
+        out: ElementSystem<'_>,
+    ) -> Result<(), ElementError> {
+        let n = self.law.state_len();
+        let point_ctx = points::context(self.length, ctx);
+        for (p, point) in self.points.iter().enumerate() {
+            let range = p * n..(p + 1) * n;
+            let response = self
+                .law
+                .update(
+                    &point.strain(u),
+                    &committed[range.clone()],
+                    &mut trial[range],
+                    &point_ctx,
+                )
+                .map_err(|source| ElementError::Material { point: p, source })?;
+            for i in 0..9 {
+                out.force[i] += point.volume * response.stress[0] * point.row[i];
+                if ctx.operator != Operator::None {
+                    let factor = point.volume * response.tangent[(0, 0)] * point.row[i];
+                    for j in 0..9 {
+                        out.stiffness[9 * i + j] += factor * point.row[j];
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn latch(&self, trial: &[f64], base: &mut [f64]) {
+        points::latch(self.law.as_ref(), trial, base);
+    }
+
+    fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
+        let points = self.points.iter().map(|p| (p.volume, p.strain(u)));
+        points::free_energy(self.law.as_ref(), self.length, state, points)
+    }
+
+    fn sample(
+        &self,
+        u: &[f64],
+        state: &[f64],
+        visit: &mut dyn FnMut(PointSample<'_>),
+    ) -> Result<(), ElementError> {
+        let points = self
+            .points
+            .iter()
+            .map(|p| (p.position, p.volume, p.strain(u)));
+        points::sample(self.law.as_ref(), self.length, state, points, visit)
+    }
+
+    fn segments(
+        &self,
+        u: &[f64],
+        state: &[f64],
+        visit: &mut dyn FnMut([[f64; 3]; 2], f64),
+    ) -> Result<(), ElementError> {
+        let [first, last, middle] = self.coords;
+        let mut halves = [[first, middle], [middle, last]].into_iter();
+        self.sample(u, state, &mut |s| {
+            if let Some(half) = halves.next() {
+                visit(half, s.stress[0]);
+            }
+        })
+    }
+}
