@@ -69,7 +69,7 @@ pub struct ModelCodeParameters {
 /// K0 = 15.8 tau_bmax/s1.
 ///
 /// Unloading is that of [`SlipDamage`](crate::SlipDamage), through the origin; the steeper unloading with friction of
-/// the Model Code is not modelled, and so is bond under repeated reversals.
+/// the Model Code is not modelled, nor is the decay of bond under repeated reversals.
 ///
 /// Source: fib Model Code for Concrete Structures 2010, 6.1.1.1, equations 6.1-1 to 6.1-4 and table 6.1-1.
 #[derive(Debug, Clone, Copy, PartialEq)]
