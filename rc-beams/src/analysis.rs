@@ -167,6 +167,8 @@ pub struct Outcome {
     pub path: Vec<PathPoint>,
     /// State at the largest load up to the fall; `None` without a step.
     pub peak: Option<Snapshot>,
+    /// State when the load had first fallen by [`CAPACITY_FALL`] from there, if it did.
+    pub fallen: Option<Snapshot>,
     /// State at the last accepted step.
     pub last: Snapshot,
     /// Sum of the support reactions under self weight, whole width (kN).
@@ -323,12 +325,15 @@ impl March<'_> {
             best: 0,
             fell: false,
             peak: None,
+            fallen: None,
         };
         let stop = stepping
             .control()
             .run(&mut stage, self.driver, &mut recorder);
         self.work.push((*stage.counters(), *stage.times()));
-        let LoadRecorder { path, peak, .. } = recorder;
+        let LoadRecorder {
+            path, peak, fallen, ..
+        } = recorder;
         self.steps += path.len();
         let last = path.last().map_or(0.0, |p| p.deflection);
         let outcome = Outcome {
@@ -336,6 +341,7 @@ impl March<'_> {
             strengthened: None,
             path,
             peak,
+            fallen,
             last: Snapshot::of(&stage, last),
             self_weight_kn: 2.0 * self.origin.reactions.iter().sum::<f64>() / 1e3,
             work: Vec::new(),
@@ -407,6 +413,7 @@ struct LoadRecorder<'a> {
     best: usize,
     fell: bool,
     peak: Option<Snapshot>,
+    fallen: Option<Snapshot>,
 }
 
 impl Recorder for LoadRecorder<'_> {
@@ -433,7 +440,10 @@ impl Recorder for LoadRecorder<'_> {
             self.best = self.path.len() - 1;
             self.peak = Some(Snapshot::of(view.stage, now.deflection));
         }
-        self.fell |= now.load < (1.0 - CAPACITY_FALL) * best.load;
+        if !self.fell && now.load <= (1.0 - CAPACITY_FALL) * best.load {
+            self.fell = true;
+            self.fallen = Some(Snapshot::of(view.stage, now.deflection));
+        }
         let step = self.steps_before + view.step;
         if let Continue::Stop(reason) = self.observer.step(view, step, &reading)? {
             return Ok(Continue::Stop(reason));

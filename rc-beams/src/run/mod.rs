@@ -252,7 +252,8 @@ fn run(
     };
     let at_peak = outcome.peak.as_ref().unwrap_or(&outcome.last);
     let peak = evidence::snapshot(beam, at_peak)?;
-    let last = evidence::snapshot(beam, &outcome.last)?;
+    let at_end = outcome.fallen.as_ref().unwrap_or(&outcome.last);
+    let last = evidence::snapshot(beam, at_end)?;
     let ratio = match &beam.sheets {
         Some(_) if options.counterfactual => {
             let peak = counterfactual::peak_kn(specimen, &settings, &stepping, options, interrupt)?;
@@ -275,7 +276,7 @@ fn run(
     );
     pictures::crack(&folder, specimen, beam, &peak, &title)?;
     if let Some(record) = &beam.sheets {
-        let states = [(MapState::Peak, at_peak), (MapState::End, &outcome.last)];
+        let states = [(MapState::Peak, at_peak), (MapState::End, at_end)];
         pictures::sheets(
             &folder,
             specimen,
