@@ -112,17 +112,15 @@ impl Layers {
         let mut copies = nodes;
         for copy in &mut copies {
             let key = (*copy, layer);
-            *copy = match self.copies.get(&key) {
-                Some(&id) => id,
-                None => {
-                    let direction = self.directions.get(copy).copied().unwrap_or_default();
-                    let x = mesh.nodes()[*copy];
-                    let id =
-                        mesh.add_node(std::array::from_fn(|k| x[k] + distance * direction[k]))?;
-                    self.copies.insert(key, id);
-                    id
-                }
-            };
+            if let Some(&id) = self.copies.get(&key) {
+                *copy = id;
+                continue;
+            }
+            let direction = self.directions.get(copy).copied().unwrap_or_default();
+            let x = mesh.nodes()[*copy];
+            let id = mesh.add_node(std::array::from_fn(|k| x[k] + distance * direction[k]))?;
+            self.copies.insert(key, id);
+            *copy = id;
         }
         Ok(copies)
     }

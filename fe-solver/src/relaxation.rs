@@ -61,23 +61,18 @@ impl DynamicRelaxation {
             residual: Vec::new(),
             settings,
         };
-        relaxation.residual = relaxation.evaluate(stage, free, lambda)?;
+        relaxation.residual = Self::evaluate(stage, free, lambda)?;
         Ok(relaxation)
     }
 
-    fn evaluate(
-        &self,
-        stage: &mut Stage<'_>,
-        free: &[f64],
-        lambda: f64,
-    ) -> Result<Vec<f64>, SolverError> {
+    fn evaluate(stage: &mut Stage<'_>, free: &[f64], lambda: f64) -> Result<Vec<f64>, SolverError> {
         let u = stage.compose(free, lambda);
         let r = stage.residual(&u, lambda, &EvaluationContext::new(Operator::None))?;
         stage.advance();
         Ok(r)
     }
 
-    /// Moves on from `free` until the residual is below `target` or the time steps are spent; returns the residual
+    /// Moves on from `free` until the residual is below `target` or `steps` time steps are spent; returns the residual
     /// there and the steps made.
     pub(crate) fn run(
         &mut self,
@@ -89,7 +84,7 @@ impl DynamicRelaxation {
     ) -> Result<(Residual, usize), SolverError> {
         let mut damping = self.settings.least_damping;
         let mut size = stage.measure(&self.residual);
-        for step in 0..steps.min(self.settings.max_steps) {
+        for step in 0..steps {
             if size.relative <= target {
                 return Ok((size, step));
             }
@@ -101,7 +96,7 @@ impl DynamicRelaxation {
                 free[i] += v;
                 inertia += self.mass[i] * v * v;
             }
-            let r = self.evaluate(stage, free, lambda)?;
+            let r = Self::evaluate(stage, free, lambda)?;
             let stiffness: f64 = (0..free.len())
                 .map(|i| self.velocity[i] * (self.residual[i] - r[i]))
                 .sum();

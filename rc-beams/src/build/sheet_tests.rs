@@ -72,7 +72,7 @@ fn sheets_cover_what_the_specimen_says() {
                 let covered = length * (cover.to_mm.get() - cover.from_mm.get());
                 area += covered;
                 plies += covered * cover.angles_deg.len() as f64;
-                plies += length * 0.5 * cover.overlap_mm.map_or(0.0, |o| o.get());
+                plies += length * 0.5 * cover.overlap_mm.map_or(0.0, f64::from);
             }
         }
         let record = sheets(&beam);

@@ -43,7 +43,7 @@ pub(super) fn layout(specimen: &Specimen, beam: &Beam) -> Layout {
     }
 }
 
-pub(super) const fn is_stirrup(kind: BarKind) -> bool {
+const fn is_stirrup(kind: BarKind) -> bool {
     matches!(kind, BarKind::StirrupLeg(_))
 }
 

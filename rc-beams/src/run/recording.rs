@@ -120,9 +120,12 @@ impl<'a> Recording<'a> {
         let strains = self
             .gauges
             .iter()
-            .map(|g| match g.is_on_sheet() && !complete {
-                true => Ok(f64::NAN),
-                false => g.read(model, stage.displacement(), stage.state()),
+            .map(|g| {
+                if g.is_on_sheet() && !complete {
+                    Ok(f64::NAN)
+                } else {
+                    g.read(model, stage.displacement(), stage.state())
+                }
             })
             .collect::<Result<Vec<f64>, _>>()
             .map_err(io::Error::other)?;

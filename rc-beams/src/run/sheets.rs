@@ -5,7 +5,6 @@ use fe_core::model::{Model, ModelError};
 use fe_core::state::StateStore;
 use nalgebra::Vector3;
 
-use super::evidence::is_stirrup;
 use crate::build::{BarKind, Beam, SheetRecord};
 use crate::results::evidence::Layout;
 use crate::results::sheets::{Face, InterfacePoint, SheetLayout, SheetPoint, SheetState, Zone};
@@ -16,10 +15,11 @@ pub(super) fn layout(beam: &Beam, layout: &Layout) -> SheetLayout {
     let zones = beam.sheets.iter().flat_map(|s| &s.zones);
     let mut stirrups_in_spans = vec![0; layout.shear_spans.len()];
     for bar in &beam.bars {
-        if let (BarKind::StirrupLeg(x), true) = (bar.kind, is_stirrup(bar.kind)) {
-            if let Some(span) = layout.span_at(x) {
-                stirrups_in_spans[span] += 1;
-            }
+        let BarKind::StirrupLeg(x) = bar.kind else {
+            continue;
+        };
+        if let Some(span) = layout.span_at(x) {
+            stirrups_in_spans[span] += 1;
         }
     }
     SheetLayout {

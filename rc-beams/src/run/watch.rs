@@ -9,7 +9,6 @@ use fe_core::model::{Model, ModelError};
 use fe_core::state::StateStore;
 use fe_solver::stage::Stage;
 
-use super::evidence::is_stirrup;
 use super::sheets;
 use crate::analysis::Reading;
 use crate::build::{BarKind, Beam};
@@ -183,8 +182,8 @@ fn steel_and_concrete<'a>(
         for e in bar.elements.clone() {
             sample(e, &mut |s| match bar.kind {
                 BarKind::Longitudinal => survey.bar(name, s.position, s.stress[0], fy),
-                kind if is_stirrup(kind) => survey.stirrup(name, s.position, s.stress[0], fy),
-                _ => {}
+                BarKind::StirrupLeg(_) => survey.stirrup(name, s.position, s.stress[0], fy),
+                BarKind::Tie => {}
             })?;
         }
     }
