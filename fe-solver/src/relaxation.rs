@@ -1,4 +1,15 @@
 //! Dynamic relaxation: a damped motion from a state without equilibrium to the next one with it.
+//!
+//! Explicit motion of fictitious masses at a held load factor, by central differences with time step 1:
+//!
+//! v' = ((1 - c/2) v + r/m)/(1 + c/2),  u' = u + v',
+//!
+//! r being the residual of the inviscid law, whose history follows every step. The masses are m_i = f sum_j |K_ij|/4
+//! of the elastic stiffness: by Gershgorin's theorem the highest frequency is then below the limit of stability,
+//! 2, for f >= 1. The damping is critical for the mode that moves, c = 2 omega, with Rayleigh's quotient
+//! omega^2 = v . dK v/(v . m v) taken from the residuals (adaptive dynamic relaxation, Underwood 1983).
+//!
+//! Nothing is factorised and nothing can diverge as long as the law does not create energy.
 
 use fe_core::element::EvaluationContext;
 use fe_core::material::Operator;
@@ -6,7 +17,7 @@ use fe_core::material::Operator;
 use crate::error::SolverError;
 use crate::stage::{Residual, Stage};
 
-/// Settings of [`DynamicRelaxation`].
+/// Settings of the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelaxationSettings {
     /// Time steps before it is given up.
@@ -27,16 +38,7 @@ impl Default for RelaxationSettings {
     }
 }
 
-/// Explicit motion of fictitious masses at a held load factor, by central differences with time step 1:
-///
-/// v' = ((1 - c/2) v + r/m)/(1 + c/2),  u' = u + v',
-///
-/// r being the residual of the inviscid law, whose history follows every step. The masses are m_i = f sum_j |K_ij|/4
-/// of the elastic stiffness: by Gershgorin's theorem the highest frequency is then below the limit of stability,
-/// 2, for f >= 1. The damping is critical for the mode that moves, c = 2 omega, with Rayleigh's quotient
-/// omega^2 = v . dK v/(v . m v) taken from the residuals (adaptive dynamic relaxation, Underwood 1983).
-///
-/// Nothing is factorised and nothing can diverge as long as the law does not create energy.
+/// The motion, see the [module documentation](self).
 #[derive(Debug)]
 pub(crate) struct DynamicRelaxation {
     settings: RelaxationSettings,

@@ -1,0 +1,185 @@
+//! One beam from self weight to the end of its path.
+
+mod march;
+mod recorder;
+
+use std::io;
+
+use fe_core::state::StateStore;
+use fe_solver::capacity::PathPoint;
+use fe_solver::control::{OnFailure, StepControl};
+use fe_solver::error::SolverError;
+use fe_solver::recorder::{Continue, IterationRecord, StepView};
+use fe_solver::stage::{Counters, PhaseTimes, Stage};
+
+pub use march::analyse;
+
+use crate::build::{Beam, BuildError, ModelSettings};
+use crate::spec::{Specimen, Staged};
+
+/// A path is followed to this multiple of the deflection at its largest load.
+pub const FOLLOW: f64 = 1.5;
+
+/// How the load stage is stepped.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stepping {
+    /// First step (mm).
+    pub initial_mm: f64,
+    /// Imposed deflection at which the path ends at the latest (mm).
+    pub until_mm: f64,
+    /// Whether the path is followed to `until_mm` whatever happens to the load.
+    pub to_the_end: bool,
+    /// Relative residual a step must meet.
+    pub criterion: f64,
+}
+
+/// Longest step over the first one.
+const LONGEST: f64 = 2.0;
+/// Share of the deflection reached that a step may take where this is longer.
+const LONGEST_SHARE: f64 = 0.01;
+/// First step over the shortest one.
+const SHORTEST: f64 = 16.0;
+/// Steps with fewer iterations are followed by longer ones.
+const EASY: usize = 20;
+/// How much longer.
+const GROWTH: f64 = 1.5;
+
+impl Stepping {
+    fn control(&self) -> StepControl {
+        StepControl {
+            longest: (LONGEST * self.initial_mm).min(self.until_mm),
+            longest_share: LONGEST_SHARE,
+            shortest: self.initial_mm / SHORTEST,
+            criterion: self.criterion,
+            easy: EASY,
+            growth: GROWTH,
+            on_failure: OnFailure::Flag,
+            ..StepControl::new(self.initial_mm, self.until_mm)
+        }
+    }
+}
+
+/// What is read off the model at an accepted step, net of self weight.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// Deflection at the gauge (mm).
+    pub deflection_mm: f64,
+    /// Reported load (kN).
+    pub load_kn: f64,
+    /// The same from the work of the true stresses on the step (kN).
+    pub work_conjugate_load_kn: f64,
+    /// Support reactions of the whole width, self weight included (kN).
+    pub reactions_kn: Vec<f64>,
+}
+
+/// Displacements and states of an accepted step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// Deflection (mm).
+    pub deflection_mm: f64,
+    /// Displacements of all DOFs (mm).
+    pub displacement: Vec<f64>,
+    /// States of all elements.
+    pub state: StateStore,
+}
+
+impl Snapshot {
+    /// The accepted state of a stage.
+    pub fn of(stage: &Stage<'_>, deflection_mm: f64) -> Self {
+        Self {
+            deflection_mm,
+            displacement: stage.displacement().to_vec(),
+            state: stage.state().clone(),
+        }
+    }
+}
+
+/// Watches a run.
+pub trait Observer {
+    /// The beam carries its own weight.
+    ///
+    /// # Errors
+    ///
+    /// An output error ends the run.
+    fn weight(&mut self, view: &StepView<'_>, reading: &Reading) -> io::Result<()>;
+
+    /// An iteration of the load stage was evaluated.
+    ///
+    /// # Errors
+    ///
+    /// An output error ends the run.
+    fn iteration(&mut self, record: &IterationRecord) -> io::Result<()>;
+
+    /// A step under load was accepted, counted through all stages. The answer tells whether to go on.
+    ///
+    /// # Errors
+    ///
+    /// An output error ends the run.
+    fn step(&mut self, view: &StepView<'_>, step: usize, reading: &Reading)
+    -> io::Result<Continue>;
+
+    /// Sheets have been bonded to the loaded beam: from now on it is this one, with `u` the displacements of
+    /// all its DOFs.
+    ///
+    /// # Errors
+    ///
+    /// An output error ends the run.
+    fn bonded(&mut self, beam: &Beam, u: &[f64]) -> io::Result<()>;
+}
+
+/// A beam that is loaded before its sheets are bonded.
+#[derive(Debug, Clone, Copy)]
+pub struct Staging<'a> {
+    /// The specimen.
+    pub specimen: &'a Specimen,
+    /// How it is modelled.
+    pub settings: &'a ModelSettings,
+    /// Load and what happens to it while the sheets are bonded.
+    pub staged: &'a Staged,
+}
+
+/// Why a path ended before its time.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum AnalysisError {
+    /// The solver gave up.
+    #[error(transparent)]
+    Solver(#[from] SolverError),
+    /// The bare beam fails before the sheets are bonded.
+    #[error(
+        "the bare beam carries {carried_kn:.1} kN, but its sheets are to be bonded at {wanted_kn:.1} kN; give a \
+         lower load in staged.load_kn"
+    )]
+    NotReached {
+        /// Largest load of the bare beam (kN).
+        carried_kn: f64,
+        /// Load at which the sheets are to be bonded (kN).
+        wanted_kn: f64,
+    },
+    /// The strengthened model cannot be built.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+}
+
+/// What a run leaves behind.
+#[derive(Debug)]
+pub struct Outcome {
+    /// Load path before the sheets were bonded; empty unless the strengthening is staged.
+    pub before: Vec<PathPoint>,
+    /// The beam that was strengthened under load.
+    pub strengthened: Option<Beam>,
+    /// Load path, one point per accepted step.
+    pub path: Vec<PathPoint>,
+    /// State at the largest load up to the fall; `None` without a step.
+    pub peak: Option<Snapshot>,
+    /// State when the load had first fallen by [`CAPACITY_FALL`](fe_solver::capacity::CAPACITY_FALL) from there, if it did.
+    pub fallen: Option<Snapshot>,
+    /// State at the last accepted step.
+    pub last: Snapshot,
+    /// Sum of the support reactions under self weight, whole width (kN).
+    pub self_weight_kn: f64,
+    /// Work done and wall time by phase, stage by stage.
+    pub work: Vec<(Counters, PhaseTimes)>,
+    /// Why the path ended.
+    pub stop: Result<String, AnalysisError>,
+}

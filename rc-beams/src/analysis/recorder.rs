@@ -1,0 +1,155 @@
+//! What is read off accepted steps, and when a stage ends.
+
+use std::io;
+
+use fe_solver::capacity::{CAPACITY_FALL, PathPoint};
+use fe_solver::recorder::{Continue, IterationRecord, Recorder, StepView};
+
+use super::march::Until;
+use super::{FOLLOW, Observer, Reading, Snapshot};
+use crate::build::Beam;
+
+/// Reactions (N, half width) and deflection (mm) under self weight: the zero of all readings.
+#[derive(Debug, Default)]
+pub(super) struct Origin {
+    pub reactions: Vec<f64>,
+    displacement: f64,
+}
+
+fn read(beam: &Beam, view: &StepView<'_>, origin: &Origin) -> Reading {
+    let stage = view.stage;
+    let reactions = beam.measures.reactions(|d| stage.reaction(d));
+    let net: Vec<f64> = reactions
+        .iter()
+        .zip(&origin.reactions)
+        .map(|(r, w)| r - w)
+        .collect();
+    let load_kn = beam.measures.load_kn(&net);
+    // The load conjugate to the imposed deflection is the sum of all loads; its error is shared by the
+    // reported load in proportion.
+    let ratio = if view.load == 0.0 {
+        1.0
+    } else {
+        view.work_conjugate_load / view.load
+    };
+    Reading {
+        deflection_mm: origin.displacement - stage.displacement()[beam.measures.deflection],
+        load_kn,
+        work_conjugate_load_kn: load_kn * ratio,
+        reactions_kn: reactions.iter().map(|r| 2.0 * r / 1e3).collect(),
+    }
+}
+
+pub(super) struct WeightRecorder<'a> {
+    pub beam: &'a Beam,
+    pub observer: &'a mut dyn Observer,
+    pub origin: &'a mut Origin,
+}
+
+impl Recorder for WeightRecorder<'_> {
+    fn step(&mut self, view: &StepView<'_>) -> io::Result<Continue> {
+        let stage = view.stage;
+        *self.origin = Origin {
+            reactions: self.beam.measures.reactions(|d| stage.reaction(d)),
+            displacement: stage.displacement()[self.beam.measures.deflection],
+        };
+        let reading = read(self.beam, view, self.origin);
+        self.observer.weight(view, &reading)?;
+        Ok(Continue::Yes)
+    }
+}
+
+pub(super) struct LoadRecorder<'a> {
+    beam: &'a Beam,
+    observer: &'a mut dyn Observer,
+    origin: &'a Origin,
+    pub steps_before: usize,
+    pub to_the_end: bool,
+    pub until: Until,
+    pub path: Vec<PathPoint>,
+    /// Index of the largest load so far, until the load has fallen from it.
+    best: usize,
+    fell: bool,
+    pub peak: Option<Snapshot>,
+    pub fallen: Option<Snapshot>,
+}
+
+impl<'a> LoadRecorder<'a> {
+    /// For a stage that ends with the failure of the beam.
+    pub(super) fn new(beam: &'a Beam, observer: &'a mut dyn Observer, origin: &'a Origin) -> Self {
+        Self {
+            beam,
+            observer,
+            origin,
+            steps_before: 0,
+            to_the_end: false,
+            until: Until::Failure,
+            path: Vec::new(),
+            best: 0,
+            fell: false,
+            peak: None,
+            fallen: None,
+        }
+    }
+}
+
+impl Recorder for LoadRecorder<'_> {
+    fn iteration(&mut self, record: &IterationRecord) -> io::Result<()> {
+        self.observer.iteration(&IterationRecord {
+            step: self.steps_before + record.step,
+            ..*record
+        })
+    }
+
+    fn step(&mut self, view: &StepView<'_>) -> io::Result<Continue> {
+        let reading = read(self.beam, view, self.origin);
+        self.path.push(PathPoint {
+            deflection: reading.deflection_mm,
+            load: reading.load_kn,
+            work_conjugate_load: reading.work_conjugate_load_kn,
+            residual: view.residual,
+            flagged: view.flagged,
+            held: view.held > 0,
+            unstable: view.negative_pivots > 0,
+        });
+        let (best, now) = (self.path[self.best], self.path[self.path.len() - 1]);
+        if !self.fell && (self.path.len() == 1 || now.load > best.load) {
+            self.best = self.path.len() - 1;
+            self.peak = Some(Snapshot::of(view.stage, now.deflection));
+        }
+        if !self.fell && now.load <= (1.0 - CAPACITY_FALL) * best.load {
+            self.fell = true;
+            self.fallen = Some(Snapshot::of(view.stage, now.deflection));
+        }
+        let step = self.steps_before + view.step;
+        if let Continue::Stop(reason) = self.observer.step(view, step, &reading)? {
+            return Ok(Continue::Stop(reason));
+        }
+        match self.until {
+            Until::Load(load) if now.load >= load => {
+                let reason = format!("the load reached {load} kN");
+                return Ok(Continue::Stop(reason));
+            }
+            Until::Unloaded if now.load <= 0.0 => {
+                return Ok(Continue::Stop("the load was taken off".into()));
+            }
+            Until::Unloaded => return Ok(Continue::Yes),
+            Until::Failure | Until::Load(_) => {}
+        }
+        if self.to_the_end {
+            return Ok(Continue::Yes);
+        }
+        if self.fell {
+            let fall = 100.0 * (1.0 - now.load / best.load);
+            return Ok(Continue::Stop(format!(
+                "the load fell by {fall:.0} % from its peak"
+            )));
+        }
+        if now.deflection > FOLLOW * best.deflection && now.load < best.load {
+            return Ok(Continue::Stop(format!(
+                "the deflection reached {FOLLOW} times that at the peak"
+            )));
+        }
+        Ok(Continue::Yes)
+    }
+}
