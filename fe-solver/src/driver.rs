@@ -21,8 +21,8 @@ pub struct Attempt {
     pub residual: Residual,
     /// Iterations spent.
     pub iterations: usize,
-    /// Solves at a held load factor that it took to pass a snap; 0 for a regular step.
-    pub held: usize,
+    /// Whether the step passed a snap at a held load factor.
+    pub held: bool,
 }
 
 /// Brings one step to equilibrium, starting from the accepted state of a stage.

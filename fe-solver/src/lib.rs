@@ -8,12 +8,12 @@
 pub mod anderson;
 pub mod capacity;
 pub mod control;
+pub mod descent;
 pub mod driver;
 pub mod error;
 pub mod linear;
 pub mod newton;
 pub mod path;
 pub mod recorder;
-pub mod relaxation;
 pub mod secant;
 pub mod stage;

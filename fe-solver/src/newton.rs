@@ -150,7 +150,7 @@ impl Driver for NewtonRaphson {
                     converged,
                     residual: size,
                     iterations,
-                    held: 0,
+                    held: false,
                 });
             }
             stage.latch();

@@ -38,8 +38,8 @@ pub struct StepView<'a> {
     pub iterations: usize,
     /// Relative residual of the accepted state with the true, inviscid law.
     pub residual: f64,
-    /// Solves at a held load factor that it took to pass a snap; 0 for a regular step.
-    pub held: usize,
+    /// Whether the step passed a snap at a held load factor.
+    pub held: bool,
     /// Load conjugate to the load factor.
     pub load: f64,
     /// Work-conjugate load of the step.

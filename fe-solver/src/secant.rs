@@ -1,12 +1,12 @@
-//! Secant operator, extrapolated predictor, Anderson acceleration, viscous passage of snaps.
+//! Secant operator, extrapolated predictor, Anderson acceleration, snaps by secant descent.
 
 use fe_core::element::EvaluationContext;
 use fe_core::material::Operator;
 
 use crate::anderson::Anderson;
+use crate::descent::{Descent, DescentSettings};
 use crate::driver::{Attempt, Driver, IterationLog};
 use crate::error::SolverError;
-use crate::relaxation::{DynamicRelaxation, RelaxationSettings};
 use crate::stage::{Residual, Stage};
 
 /// Settings of [`SecantAnderson`].
@@ -16,22 +16,10 @@ pub struct SecantSettings {
     pub max_iterations: usize,
     /// Differences the acceleration keeps.
     pub depth: usize,
-    /// Viscosity tau of the history within the iteration, in units of the load factor:
-    /// a = d lambda/(tau + d lambda).
-    pub viscosity: f64,
     /// Iterations after which the operator is rebuilt at the current iterate; 0 keeps the first.
     pub rebuild_after: usize,
-    /// Viscous solves at a fixed load factor before dynamic relaxation takes over.
-    pub max_holds: usize,
-    /// Iterations of these solves, likewise.
-    pub max_held_iterations: usize,
-    /// Smallest relaxation a of such a solve, likewise.
-    pub min_relaxation: f64,
-    /// Relative residual of such a solve over that of the inviscid law before it, where this is looser than the
-    /// criterion.
-    pub transit: f64,
-    /// Dynamic relaxation.
-    pub dynamic: RelaxationSettings,
+    /// Descent over snaps.
+    pub descent: DescentSettings,
 }
 
 impl Default for SecantSettings {
@@ -39,13 +27,8 @@ impl Default for SecantSettings {
         Self {
             max_iterations: 60,
             depth: 10,
-            viscosity: 0.0,
             rebuild_after: 30,
-            max_holds: 60,
-            max_held_iterations: 800,
-            min_relaxation: 1e-4,
-            transit: 0.1,
-            dynamic: RelaxationSettings::default(),
+            descent: DescentSettings::default(),
         }
     }
 }
@@ -56,15 +39,14 @@ impl Default for SecantSettings {
 /// predictor, is rebuilt there once, and serves the iterations of the step: one force evaluation and
 /// one back-substitution each, no tangent, no line search. New cracks are latched until the step ends.
 ///
-/// Where no equilibrium lies near (a crack snaps), the load factor is held and the history is let grow
-/// viscously, solve by solve, until the inviscid law is in equilibrium again. A snap that does not end so, the
-/// failure of the beam for instance, is followed as a damped motion of fictitious masses to its end.
+/// Where no equilibrium lies near (a crack snaps, a sheet comes off), the load factor is held and a
+/// [descent](crate::descent) leads to the next one.
 #[derive(Debug, Clone, Default)]
 pub struct SecantAnderson {
     settings: SecantSettings,
 }
 
-/// Result of one solve at a fixed load factor and relaxation.
+/// Result of one solve at a fixed load factor.
 struct Solve {
     free: Vec<f64>,
     /// Residual of the last evaluation, if it was that of `free`: the solve converged.
@@ -77,11 +59,12 @@ struct Snap {
     free: Vec<f64>,
     residual: Residual,
     iterations: usize,
-    held: usize,
 }
 
-/// Relative residual at which dynamic relaxation first gives over to the static iteration.
-const FIRST_REST: f64 = 1e-2;
+/// Relative residual below which a descent gives over to the accelerated iteration.
+const NEAR: f64 = 1e-2;
+/// Iterations of a descent before that, and from one such attempt to the next.
+const LEG: usize = 30;
 
 impl SecantAnderson {
     /// A driver with the given settings.
@@ -95,18 +78,11 @@ impl SecantAnderson {
         stage: &mut Stage<'_>,
         mut free: Vec<f64>,
         lambda: f64,
-        relaxation: f64,
         criterion: f64,
         log: &mut IterationLog<'_>,
     ) -> Result<Solve, SolverError> {
-        let operator = EvaluationContext {
-            operator: Operator::Secant,
-            relaxation,
-        };
-        let force = EvaluationContext {
-            operator: Operator::None,
-            relaxation,
-        };
+        let operator = EvaluationContext::new(Operator::Secant);
+        let force = EvaluationContext::new(Operator::None);
         let mut anderson = Anderson::new(self.settings.depth);
         let mut best: Option<(f64, Vec<f64>)> = None;
         let mut iterations = 0_usize;
@@ -147,12 +123,9 @@ impl SecantAnderson {
     }
 
     /// First iterate: one linear solve with the secant operator at the extrapolated displacement.
-    fn predict(stage: &mut Stage<'_>, step: f64, relaxation: f64) -> Result<Vec<f64>, SolverError> {
+    fn predict(stage: &mut Stage<'_>, step: f64) -> Result<Vec<f64>, SolverError> {
         let lambda = stage.lambda() + step;
-        let operator = EvaluationContext {
-            operator: Operator::Secant,
-            relaxation,
-        };
+        let operator = EvaluationContext::new(Operator::Secant);
         let accepted = stage.displacement().to_vec();
         let at = match stage.previous() {
             Some((du, dl)) => accepted
@@ -177,87 +150,44 @@ impl SecantAnderson {
         Ok(free)
     }
 
-    /// From the accepted displacement to the next equilibrium at a held load factor: viscous solves first, which
-    /// pass small snaps in a few iterations, then dynamic relaxation.
+    /// From the accepted displacement to the next equilibrium at a held load factor: a descent that the
+    /// accelerated iteration ends once it is near.
     fn pass_snap(
         &self,
         stage: &mut Stage<'_>,
         lambda: f64,
-        mut residual: Residual,
         criterion: f64,
         log: &mut IterationLog<'_>,
     ) -> Result<Snap, SolverError> {
-        let mut free = stage.restrict(stage.displacement());
-        let mut relaxation = 0.5;
-        let (mut held, mut iterations) = (0, 0);
-        while held < self.settings.max_holds && iterations < self.settings.max_held_iterations {
-            held += 1;
-            // States passed through on the way need no more than a fraction of what is still amiss.
-            let inner = (0.8 * criterion).max(self.settings.transit * residual.relative);
-            let solve = self.solve(stage, free.clone(), lambda, relaxation, inner, log)?;
-            iterations += solve.iterations;
-            if solve.converged.is_none() {
-                relaxation *= 0.3;
-                if relaxation < self.settings.min_relaxation {
-                    break;
-                }
-                continue;
-            }
-            let u = stage.compose(&solve.free, lambda);
-            let ctx = EvaluationContext {
-                operator: Operator::None,
-                relaxation,
-            };
-            stage.residual(&u, lambda, &ctx)?;
-            stage.advance();
-            free = solve.free;
-            residual = Self::check(stage, &free, lambda)?;
-            if residual.relative <= criterion {
+        let free = stage.restrict(stage.displacement());
+        let settings = self.settings.descent;
+        let mut descent = Descent::start(stage, settings, free, lambda)?;
+        let mut spent = 0;
+        loop {
+            let residual = descent.run(stage, criterion, LEG, log)?;
+            let iterations = spent + descent.iterations;
+            let over = iterations >= settings.max_iterations || !residual.relative.is_finite();
+            if residual.relative <= criterion || over {
                 return Ok(Snap {
-                    free,
+                    free: descent.free,
                     residual,
                     iterations,
-                    held,
                 });
             }
-            if solve.iterations < self.settings.max_iterations / 2 {
-                relaxation = (1.6 * relaxation).min(1.0 - 0.6 * (1.0 - relaxation));
+            if residual.relative > NEAR {
+                continue;
             }
-        }
-        let settings = self.settings.dynamic;
-        let mut motion = DynamicRelaxation::at_rest(stage, settings, &free, lambda)?;
-        let mut target = FIRST_REST;
-        let mut steps = 0;
-        while steps < settings.max_steps {
-            let left = settings.max_steps - steps;
-            let (size, made) = motion.run(stage, &mut free, lambda, target, left)?;
-            steps += made;
-            residual = size;
-            if residual.relative <= criterion {
-                break;
+            let solve = self.solve(stage, descent.free.clone(), lambda, criterion, log)?;
+            spent = iterations + solve.iterations;
+            if let Some(residual) = solve.converged {
+                return Ok(Snap {
+                    free: solve.free,
+                    residual,
+                    iterations: spent,
+                });
             }
-            // Near enough to rest, the static iteration ends what the motion would approach slowly.
-            let solve = self.solve(stage, free.clone(), lambda, 1.0, criterion, log)?;
-            iterations += solve.iterations;
-            if let Some(size) = solve.converged {
-                (free, residual) = (solve.free, size);
-                break;
-            }
-            stage.advance();
-            motion = DynamicRelaxation::at_rest(stage, settings, &free, lambda)?;
-            target = (0.3 * target).max(criterion);
+            descent = Descent::start(stage, settings, descent.free, lambda)?;
         }
-        if residual.relative > criterion {
-            residual = Self::check(stage, &free, lambda)?;
-        }
-        iterations += steps;
-        held += 1;
-        Ok(Snap {
-            free,
-            residual,
-            iterations,
-            held,
-        })
     }
 
     /// Residual of the inviscid law at `free`; the trial state becomes the inviscid one.
@@ -282,28 +212,19 @@ impl Driver for SecantAnderson {
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
         let lambda = stage.lambda() + length;
-        let relaxation = length / (self.settings.viscosity + length);
-        // The viscous iterate is solved a little tighter, so that the inviscid check can pass.
-        let inner = if relaxation < 1.0 {
-            0.8 * criterion
-        } else {
-            criterion
-        };
-        let first = Self::predict(stage, length, relaxation)?;
-        let mut solve = self.solve(stage, first, lambda, relaxation, inner, log)?;
+        let first = Self::predict(stage, length)?;
+        let mut solve = self.solve(stage, first, lambda, criterion, log)?;
         let mut iterations = solve.iterations;
         let mut residual = match solve.converged {
-            // Without viscosity the iterate has been evaluated with the true law already.
-            Some(residual) if relaxation >= 1.0 => residual,
-            _ => Self::check(stage, &solve.free, lambda)?,
+            Some(residual) => residual,
+            None => Self::check(stage, &solve.free, lambda)?,
         };
-        let mut held = 0;
-        if residual.relative > criterion && last_resort {
-            let nearest = (residual.relative, solve.free.clone());
-            let snap = self.pass_snap(stage, lambda, residual, criterion, log)?;
+        let held = residual.relative > criterion && last_resort;
+        if held {
+            let nearest = (residual.relative, solve.free);
+            let snap = self.pass_snap(stage, lambda, criterion, log)?;
             (solve.free, residual) = (snap.free, snap.residual);
             iterations += snap.iterations;
-            held = snap.held;
             if residual.relative > criterion && nearest.0 < residual.relative {
                 // The snap was not passed, and the best iterate of the regular solve is nearer.
                 solve.free = nearest.1;

@@ -51,7 +51,7 @@ struct Path<'a> {
 impl Recorder for Path<'_> {
     fn step(&mut self, view: &StepView<'_>) -> std::io::Result<Continue> {
         let row = (self.read)(view);
-        self.rows.push((row, view.flagged || view.held > 0));
+        self.rows.push((row, view.flagged || view.held));
         Ok(if (self.stop)(&row) {
             Continue::Stop("asked to".into())
         } else {

@@ -109,7 +109,7 @@ impl Recorder for LoadRecorder<'_> {
             work_conjugate_load: reading.work_conjugate_load_kn,
             residual: view.residual,
             flagged: view.flagged,
-            held: view.held > 0,
+            held: view.held,
             unstable: view.negative_pivots > 0,
         });
         let (best, now) = (self.path[self.best], self.path[self.path.len() - 1]);

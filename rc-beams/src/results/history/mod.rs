@@ -31,8 +31,8 @@ pub struct StepRow {
     pub iterations: usize,
     /// Attempts.
     pub attempts: usize,
-    /// Solves at a held load factor.
-    pub held: usize,
+    /// Whether it passed a snap at a held load factor.
+    pub held: bool,
     /// Accepted without meeting the criterion.
     pub flagged: bool,
     /// Length of the step in the imposed displacement (mm).
@@ -52,7 +52,7 @@ impl StepRow {
             work_conjugate_load: self.p_star_kn.unwrap_or(self.load_kn),
             residual: self.residual,
             flagged: self.flagged,
-            held: self.held > 0,
+            held: self.held,
             unstable: self.negative_pivots > 0,
         }
     }
@@ -71,7 +71,7 @@ impl StepRow {
             number(self.criterion),
             self.iterations.to_string(),
             self.attempts.to_string(),
-            self.held.to_string(),
+            u8::from(self.held).to_string(),
             u8::from(self.flagged).to_string(),
             number(self.step_mm),
             self.factorisations.to_string(),
@@ -271,7 +271,7 @@ mod tests {
     #[test]
     fn a_step_becomes_a_point_of_the_path() {
         let held = StepRow {
-            held: 2,
+            held: true,
             ..row(4, 100.0)
         };
         let point = held.point();
