@@ -5,7 +5,8 @@ use std::io;
 use fe_solver::capacity::Capacity;
 use fe_solver::recorder::{Continue, IterationRecord, StepView};
 
-use super::{RunError, build, driver};
+use super::plan::driver;
+use super::{RunError, build};
 use crate::analysis::{Observer, Reading, Staging, Stepping, analyse};
 use crate::build::{Beam, ModelSettings};
 use crate::options::{Bond, RunOptions};

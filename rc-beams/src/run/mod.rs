@@ -1,8 +1,10 @@
 //! Runs specimens: model, analysis, files and the line on the terminal.
 
 mod counterfactual;
+mod error;
 mod evidence;
 mod pictures;
+mod plan;
 mod pull_out;
 mod queue;
 mod recording;
@@ -11,90 +13,28 @@ mod watch;
 
 use std::time::Instant;
 
-use fe_core::model::ModelError;
-use fe_elements::HexRule;
 use fe_solver::capacity::{Capacity, Verdict};
-use fe_solver::driver::Driver;
 use fe_solver::error::SolverError;
-use fe_solver::newton::{NewtonRaphson, NewtonSettings, Refactor};
-use fe_solver::secant::SecantAnderson;
 
-use crate::analysis::{AnalysisError, Outcome, Staging, Stepping, analyse};
-use crate::build::{Beam, BuildError, ModelSettings};
+use crate::analysis::{AnalysisError, Outcome, Staging, analyse};
+use crate::build::{Beam, ModelSettings};
 use crate::exit::Exit;
-use crate::options::{self, Integration, RunOptions};
+use crate::options::RunOptions;
 use crate::output;
 use crate::results::error::ResultsError;
 use crate::results::evidence::{Layout, Snapshot};
 use crate::results::folder::Folder;
-use crate::results::hash::fingerprint;
 use crate::results::interrupt::Interrupt;
 use crate::results::mode::Diagnosis;
 use crate::results::progress::Board;
 use crate::results::resources::Resources;
 use crate::results::sheets::{MapState, SheetDrop};
-use crate::results::summary::{Figures, Setup, Summary, WallTime, Work};
+use crate::results::summary::{Figures, Summary, WallTime, Work};
 use crate::spec::Specimen;
+pub use error::RunError;
+use plan::{driver, settings, setup, stepping};
 use recording::Recording;
 use watch::Watch;
-
-/// First step of the load stage (mm of imposed deflection). Steps from 0.006 to 0.06 mm put the peak of
-/// A-SO3-1 between 138.5 and 140.7 kN, with the characteristic preset between 148.7 and 155.9 kN: the path
-/// passes bifurcations, and the step decides which branch it takes.
-const FIRST_STEP_MM: f64 = 0.02;
-/// Without a final deflection the path is followed past its peak, at most to this multiple of the
-/// deflection that the source imposed.
-const FARTHEST: f64 = 4.0;
-/// Relative residual that a step must meet.
-const CRITERION: f64 = 1e-3;
-/// Modified Newton-Raphson keeps the factor while an iteration divides the residual by this.
-const KEEP_FACTOR: f64 = 3.0;
-
-/// What stops the program before or between runs.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[non_exhaustive]
-pub enum RunError {
-    /// A model cannot be built.
-    #[error("{specimen}: {reason}")]
-    Build {
-        /// Specimen.
-        specimen: String,
-        /// Why.
-        reason: Box<BuildError>,
-    },
-    /// Results cannot be written.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Output(#[from] ResultsError),
-    /// The threads cannot be started.
-    #[error("cannot start the threads")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
-    /// A beam cannot carry its own weight, or its model is singular.
-    #[error("{specimen}: {reason}")]
-    Solver {
-        /// Specimen.
-        specimen: String,
-        /// Why.
-        reason: Box<AnalysisError>,
-    },
-    /// A state cannot be read.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-}
-
-impl RunError {
-    /// How the program ends because of it.
-    pub fn exit(&self) -> Exit {
-        match self {
-            Self::Build { reason, .. } => match **reason {
-                BuildError::TooFewElements { .. } => Exit::Usage,
-                _ => Exit::BadInput,
-            },
-            Self::Output(_) => Exit::File,
-            Self::Threads(_) | Self::Solver { .. } | Self::Model(_) => Exit::StoppedEarly,
-        }
-    }
-}
 
 /// Runs the specimens, as many at once as there are threads. All models are built and all folders tried before the
 /// first one runs.
@@ -124,48 +64,6 @@ fn build(specimen: &Specimen, settings: &ModelSettings) -> Result<Beam, RunError
         specimen: specimen.name.clone(),
         reason: Box::new(error),
     })
-}
-
-fn settings(options: &RunOptions, specimen: &Specimen) -> ModelSettings {
-    let mut settings = ModelSettings::new(options.preset, specimen);
-    settings.law = options.law;
-    settings.bond = options.bond;
-    settings.soffit_fibre = options.soffit_fibre.unwrap_or(settings.soffit_fibre);
-    settings.sheet_shear = options.sheet_shear.unwrap_or(settings.sheet_shear);
-    if let Some(mesh) = options.mesh {
-        settings.mesh = [mesh.nx, mesh.ny, mesh.nz];
-    }
-    if let Some(integration) = options.integration {
-        settings.integration = match integration {
-            Integration::Reduced => HexRule::Reduced,
-            Integration::Full => HexRule::Full,
-        };
-    }
-    settings
-}
-
-fn stepping(specimen: &Specimen, options: &RunOptions) -> Stepping {
-    let imposed = specimen.imposed.deflection_mm.get();
-    let end = options.until_mm.unwrap_or(imposed);
-    Stepping {
-        initial_mm: options
-            .steps
-            .map_or(FIRST_STEP_MM.min(end), |n| end / f64::from(n)),
-        until_mm: options.until_mm.unwrap_or(FARTHEST * imposed),
-        to_the_end: options.until_mm.is_some(),
-        criterion: CRITERION,
-    }
-}
-
-fn driver(options: &RunOptions) -> Box<dyn Driver> {
-    match options.driver {
-        options::Driver::Secant => Box::new(SecantAnderson::default()),
-        options::Driver::Newton => Box::new(NewtonRaphson::new(NewtonSettings::default())),
-        options::Driver::ModifiedNewton => Box::new(NewtonRaphson::new(NewtonSettings {
-            refactor: Refactor::Below(KEEP_FACTOR),
-            ..NewtonSettings::default()
-        })),
-    }
 }
 
 fn run(
@@ -351,33 +249,4 @@ fn kept(reason: &str, exit: Exit, folder: &Folder) -> String {
     };
     let path = folder.path().display();
     format!("{reason}; the results up to the last accepted step are in {path}")
-}
-
-fn setup(
-    specimen: &Specimen,
-    options: &RunOptions,
-    settings: &ModelSettings,
-    beam: &Beam,
-    driver: &str,
-) -> Setup {
-    let [nx, ny, nz] = settings.mesh;
-    let text = |value: Result<String, serde_json::Error>| value.unwrap_or_default();
-    Setup {
-        specimen: specimen.name.clone(),
-        preset: options::name(&settings.preset),
-        law: options::name(&settings.law),
-        driver: driver.into(),
-        integration: match settings.integration {
-            HexRule::Reduced => "reduced".into(),
-            HexRule::Full => "full".into(),
-        },
-        mesh: format!("{nx}x{ny}x{nz}"),
-        elements: beam.model.elements().len(),
-        dofs: beam.model.dofs().len(),
-        version: env!("CARGO_PKG_VERSION").into(),
-        input_hash: fingerprint(&[
-            &text(serde_json::to_string(specimen)),
-            &text(serde_json::to_string(options)),
-        ]),
-    }
 }

@@ -1,5 +1,7 @@
 //! One load stage as the drivers see it: residuals, operators, solves, and the accepted state.
 
+mod measures;
+
 use std::time::{Duration, Instant};
 
 use fe_core::assembly::{Assembled, Assembler};
@@ -10,6 +12,8 @@ use fe_core::state::StateStore;
 
 use crate::error::SolverError;
 use crate::linear::{DirectSolver, LinearError, LinearSolver};
+
+pub use measures::Residual;
 
 /// Deterministic counts of the work done.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -39,18 +43,6 @@ pub struct PhaseTimes {
     pub factorise: Duration,
     /// Back-substitution.
     pub solve: Duration,
-}
-
-/// Size of a residual.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Residual {
-    /// |f_ext - f_int| on the free equations over the norm of the reactions (2-norms), or over 1 N where
-    /// there is no reaction.
-    pub relative: f64,
-    /// Largest component (N).
-    pub largest: f64,
-    /// DOF of that component.
-    pub worst: usize,
 }
 
 /// What the accepted state of a stage is built from.
@@ -233,59 +225,6 @@ impl<'m> Stage<'m> {
         Ok(())
     }
 
-    /// Counts the negative pivots of the symmetric part (K + K^T)/2 of the consistent tangent at `u`: none in
-    /// an equilibrium that is stable under the constraints of the stage (positive second-order work, Hill
-    /// 1958). A tangent that is singular counts as one.
-    ///
-    /// The trial state is that of `u`; the factor replaces that of the driver.
-    ///
-    /// # Errors
-    ///
-    /// [`SolverError`].
-    pub fn stability(&mut self, u: &[f64], lambda: f64) -> Result<usize, SolverError> {
-        self.residual(u, lambda, &EvaluationContext::new(Operator::Tangent))?;
-        let matrix = &mut self.assembled.matrix;
-        if !matrix.is_symmetric() {
-            for (l, u) in matrix.lower.iter_mut().zip(&matrix.upper) {
-                *l = 0.5 * (*l + u);
-            }
-            matrix.upper.clear();
-        }
-        match self.factorise() {
-            Ok(()) => {}
-            Err(SolverError::Singular { .. }) => self.counters.negative_pivots = 1,
-            Err(e) => return Err(e),
-        }
-        Ok(self.counters.negative_pivots)
-    }
-
-    /// Sums of |K_ij| over the rows of the undamaged model at rest, on the free equations (N/mm).
-    ///
-    /// # Errors
-    ///
-    /// [`SolverError::Model`].
-    pub fn elastic_row_sums(&mut self) -> Result<Vec<f64>, SolverError> {
-        let mut virgin = StateStore::new(self.model.elements());
-        let zero = vec![0.0; self.displacement.len()];
-        let mut assembled = Assembled::default();
-        let ctx = EvaluationContext::new(Operator::Secant);
-        self.assembler
-            .evaluate(self.model, &zero, &mut virgin, &ctx, &mut assembled)?;
-        for value in assembled
-            .matrix
-            .lower
-            .iter_mut()
-            .chain(&mut assembled.matrix.upper)
-        {
-            *value = value.abs();
-        }
-        let n = self.assembler.free().len();
-        let mut sums = vec![0.0; n];
-        let pattern = self.assembler.pattern();
-        assembled.matrix.multiply(pattern, &vec![1.0; n], &mut sums);
-        Ok(sums)
-    }
-
     /// Solves with the last factor, in place.
     ///
     /// # Errors
@@ -305,63 +244,6 @@ impl<'m> Stage<'m> {
         free.zip(&self.assembled.coupling)
             .map(|(&d, c)| f[d as usize] - c)
             .collect()
-    }
-
-    /// Size of a residual, measured against the reactions of the last evaluation.
-    pub fn measure(&self, residual: &[f64]) -> Residual {
-        let mut reactions = 0.0;
-        for &d in self.conditions.prescribed().keys() {
-            reactions += (self.assembled.internal[d] - self.external[d]).powi(2);
-        }
-        let (mut sum, mut largest, mut worst) = (0.0, 0.0, 0);
-        for (&d, r) in self.assembler.free().iter().zip(residual) {
-            sum += r * r;
-            if r.abs() > largest || !r.is_finite() {
-                (largest, worst) = (r.abs(), d as usize);
-            }
-        }
-        let scale = if reactions > 0.0 {
-            reactions.sqrt()
-        } else {
-            1.0
-        };
-        let relative = if sum == 0.0 { 0.0 } else { sum.sqrt() / scale };
-        Residual {
-            relative: if relative.is_nan() {
-                f64::INFINITY
-            } else {
-                relative
-            },
-            largest,
-            worst,
-        }
-    }
-
-    /// Work-conjugate load of the last evaluation (N, for a load factor in mm): (f_int - f_dead) . du / dlambda
-    /// over all DOFs, where du leads from the accepted displacement to `u`. Equals [`Self::load`] in
-    /// equilibrium where the factor drives displacements.
-    pub fn work_conjugate_load(&self, u: &[f64], lambda: f64) -> f64 {
-        let dl = lambda - self.lambda;
-        let mut dead = vec![0.0; u.len()];
-        self.conditions.external(0.0, &mut dead);
-        let work: f64 = (0..u.len())
-            .map(|d| (self.assembled.internal[d] - dead[d]) * (u[d] - self.displacement[d]))
-            .sum();
-        work / dl
-    }
-
-    /// Load conjugate to the load factor of the last evaluation (N, for a load factor in mm): reactions times
-    /// the prescribed pattern; 0 where the factor drives forces only.
-    pub fn load(&self) -> f64 {
-        let prescribed = self.conditions.prescribed().iter();
-        prescribed
-            .map(|(&d, r)| (self.assembled.internal[d] - self.external[d]) * r)
-            .sum()
-    }
-
-    /// Reaction (N) of a constrained DOF in the last evaluation.
-    pub fn reaction(&self, dof: usize) -> f64 {
-        self.assembled.internal[dof] - self.external[dof]
     }
 
     /// Lets laws latch new cracks found by the last evaluation.

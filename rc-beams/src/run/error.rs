@@ -1,0 +1,54 @@
+//! What stops the program.
+
+use fe_core::model::ModelError;
+
+use crate::analysis::AnalysisError;
+use crate::build::BuildError;
+use crate::exit::Exit;
+use crate::results::error::ResultsError;
+
+/// What stops the program before or between runs.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[non_exhaustive]
+pub enum RunError {
+    /// A model cannot be built.
+    #[error("{specimen}: {reason}")]
+    Build {
+        /// Specimen.
+        specimen: String,
+        /// Why.
+        reason: Box<BuildError>,
+    },
+    /// Results cannot be written.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Output(#[from] ResultsError),
+    /// The threads cannot be started.
+    #[error("cannot start the threads")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+    /// A beam cannot carry its own weight, or its model is singular.
+    #[error("{specimen}: {reason}")]
+    Solver {
+        /// Specimen.
+        specimen: String,
+        /// Why.
+        reason: Box<AnalysisError>,
+    },
+    /// A state cannot be read.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+}
+
+impl RunError {
+    /// How the program ends because of it.
+    pub fn exit(&self) -> Exit {
+        match self {
+            Self::Build { reason, .. } => match **reason {
+                BuildError::TooFewElements { .. } => Exit::Usage,
+                _ => Exit::BadInput,
+            },
+            Self::Output(_) => Exit::File,
+            Self::Threads(_) | Self::Solver { .. } | Self::Model(_) => Exit::StoppedEarly,
+        }
+    }
+}

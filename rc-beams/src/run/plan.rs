@@ -1,0 +1,100 @@
+//! From the options of the command line to a model, steps and a driver.
+
+use fe_elements::HexRule;
+use fe_solver::driver::Driver;
+use fe_solver::newton::{NewtonRaphson, NewtonSettings, Refactor};
+use fe_solver::secant::SecantAnderson;
+
+use crate::analysis::Stepping;
+use crate::build::{Beam, ModelSettings};
+use crate::options::{self, Integration, RunOptions};
+use crate::results::hash::fingerprint;
+use crate::results::summary::Setup;
+use crate::spec::Specimen;
+
+/// First step of the load stage (mm of imposed deflection). Steps from 0.006 to 0.06 mm put the peak of
+/// A-SO3-1 between 138.5 and 140.7 kN, with the characteristic preset between 148.7 and 155.9 kN: the path
+/// passes bifurcations, and the step decides which branch it takes.
+const FIRST_STEP_MM: f64 = 0.02;
+/// Without a final deflection the path is followed past its peak, at most to this multiple of the
+/// deflection that the source imposed.
+const FARTHEST: f64 = 4.0;
+/// Relative residual that a step must meet.
+const CRITERION: f64 = 1e-3;
+/// Modified Newton-Raphson keeps the factor while an iteration divides the residual by this.
+const KEEP_FACTOR: f64 = 3.0;
+
+/// How a specimen is modelled.
+pub(super) fn settings(options: &RunOptions, specimen: &Specimen) -> ModelSettings {
+    let mut settings = ModelSettings::new(options.preset, specimen);
+    settings.law = options.law;
+    settings.bond = options.bond;
+    settings.soffit_fibre = options.soffit_fibre.unwrap_or(settings.soffit_fibre);
+    settings.sheet_shear = options.sheet_shear.unwrap_or(settings.sheet_shear);
+    if let Some(mesh) = options.mesh {
+        settings.mesh = [mesh.nx, mesh.ny, mesh.nz];
+    }
+    if let Some(integration) = options.integration {
+        settings.integration = match integration {
+            Integration::Reduced => HexRule::Reduced,
+            Integration::Full => HexRule::Full,
+        };
+    }
+    settings
+}
+
+/// How its path is stepped.
+pub(super) fn stepping(specimen: &Specimen, options: &RunOptions) -> Stepping {
+    let imposed = specimen.imposed.deflection_mm.get();
+    let end = options.until_mm.unwrap_or(imposed);
+    Stepping {
+        initial_mm: options
+            .steps
+            .map_or(FIRST_STEP_MM.min(end), |n| end / f64::from(n)),
+        until_mm: options.until_mm.unwrap_or(FARTHEST * imposed),
+        to_the_end: options.until_mm.is_some(),
+        criterion: CRITERION,
+    }
+}
+
+/// How a step is solved.
+pub(super) fn driver(options: &RunOptions) -> Box<dyn Driver> {
+    match options.driver {
+        options::Driver::Secant => Box::new(SecantAnderson::default()),
+        options::Driver::Newton => Box::new(NewtonRaphson::new(NewtonSettings::default())),
+        options::Driver::ModifiedNewton => Box::new(NewtonRaphson::new(NewtonSettings {
+            refactor: Refactor::Below(KEEP_FACTOR),
+            ..NewtonSettings::default()
+        })),
+    }
+}
+
+/// What was run, for the summary.
+pub(super) fn setup(
+    specimen: &Specimen,
+    options: &RunOptions,
+    settings: &ModelSettings,
+    beam: &Beam,
+    driver: &str,
+) -> Setup {
+    let [nx, ny, nz] = settings.mesh;
+    let text = |value: Result<String, serde_json::Error>| value.unwrap_or_default();
+    Setup {
+        specimen: specimen.name.clone(),
+        preset: options::name(&settings.preset),
+        law: options::name(&settings.law),
+        driver: driver.into(),
+        integration: match settings.integration {
+            HexRule::Reduced => "reduced".into(),
+            HexRule::Full => "full".into(),
+        },
+        mesh: format!("{nx}x{ny}x{nz}"),
+        elements: beam.model.elements().len(),
+        dofs: beam.model.dofs().len(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        input_hash: fingerprint(&[
+            &text(serde_json::to_string(specimen)),
+            &text(serde_json::to_string(options)),
+        ]),
+    }
+}
