@@ -180,7 +180,9 @@ impl Element for Hex20 {
                 )
                 .map_err(|source| ElementError::Material { point: p, source })?;
             kernel::add_force(g, &response.stress, *w, &mut force);
-            tangents[p] = response.tangent;
+            if ctx.operator != Operator::None {
+                tangents[p] = response.tangent;
+            }
         }
         for a in 0..20 {
             for k in 0..3 {

@@ -99,6 +99,13 @@ pub struct DirectSolver {
     scratch: [Vec<f64>; 2],
 }
 
+impl DirectSolver {
+    /// Tells what the next symmetric matrix is likely to be: an indefinite one is not tried by Cholesky first.
+    pub const fn expect(&mut self, indefinite: bool) {
+        self.indefinite = indefinite;
+    }
+}
+
 impl LinearSolver for DirectSolver {
     fn analyze(&mut self, pattern: &Sparsity) -> Result<(), LinearError> {
         let symmetric = SymmetricFactor::analyze(pattern)?;

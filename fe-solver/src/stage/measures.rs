@@ -94,11 +94,16 @@ impl Stage<'_> {
             }
             matrix.upper.clear();
         }
-        match self.factorise() {
+        self.linear.expect(self.unstable);
+        let factorised = self.factorise();
+        // The next matrix is an operator of the driver.
+        self.linear.expect(false);
+        match factorised {
             Ok(()) => {}
             Err(SolverError::Singular { .. }) => self.counters.negative_pivots = 1,
             Err(e) => return Err(e),
         }
+        self.unstable = self.counters.negative_pivots > 0;
         Ok(self.counters.negative_pivots)
     }
 }

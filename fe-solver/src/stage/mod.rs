@@ -52,6 +52,8 @@ pub struct Stage<'m> {
     conditions: Conditions,
     assembler: Assembler,
     linear: DirectSolver,
+    /// Whether the last tangent looked at for its stability was indefinite.
+    unstable: bool,
     state: &'m mut StateStore,
     assembled: Assembled,
     external: Vec<f64>,
@@ -89,6 +91,7 @@ impl<'m> Stage<'m> {
             conditions,
             assembler,
             linear,
+            unstable: false,
             state,
             assembled: Assembled::default(),
             lambda: 0.0,
