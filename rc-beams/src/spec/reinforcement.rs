@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::quantity::{
-    BarArea, BarCount, BarDiameter, Coordinate, HardeningRatio, Spacing, SteelModulus,
+    BarArea, BarCount, BarDiameter, Coordinate, HardeningRatio, RibSpacing, Spacing, SteelModulus,
     SteelStrength,
 };
 use super::specimen::Span;
@@ -43,8 +43,53 @@ pub struct Bar {
     pub source: String,
     /// Steel.
     pub steel: Steel,
+    /// Bond to the concrete.
+    #[serde(default)]
+    pub bond: BarBond,
     /// Where the bar lies.
     pub axis: Axis,
+}
+
+/// Bond of longitudinal bars to the concrete.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum BarBond {
+    /// The bar moves as the concrete around it.
+    #[default]
+    Perfect,
+    /// Bond stress over slip of ribbed bars, fib Model Code 2010, 6.1.1.1.
+    ModelCode {
+        /// Bond condition.
+        condition: BondCondition,
+        /// What ends the bond.
+        #[serde(default)]
+        confinement: BondConfinement,
+        /// Clear distance between the ribs (mm).
+        rib_spacing_mm: RibSpacing,
+        /// Source of the values.
+        source: String,
+    },
+}
+
+/// Bond condition of a bar (fib Model Code 2010, 6.1.3.2).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum BondCondition {
+    /// Good: the concrete under and around the bar was placed well, as at the bottom of the form.
+    Good,
+    /// All other conditions.
+    Other,
+}
+
+/// What ends the bond of a bar.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum BondConfinement {
+    /// The bar is pulled out: cover and confinement keep the concrete from splitting.
+    #[default]
+    PullOut,
+    /// The concrete splits, held by stirrups.
+    Stirrups,
+    /// The concrete splits, held by nothing.
+    Unconfined,
 }
 
 /// Axis of a straight longitudinal bar.
