@@ -2,7 +2,10 @@
 //! cracks they act as bars with perfect bond.
 
 use std::collections::BTreeSet;
+use std::f64::consts::PI;
 
+use fe_contact::Envelope;
+use fe_contact::envelope::{Bond, Confinement, ModelCode, ModelCodeParameters};
 use fe_core::mesh::NodeId;
 use fe_core::state::StateStore;
 use fe_solver::control::StepControl;
@@ -85,7 +88,7 @@ fn slipping_bars_hold_what_the_specimen_says() {
         let count = f64::from(bar.count_in_half.get());
         let length = record.ends[1][0] - record.ends[0][0];
         let steel = count * bar.area_mm2.get() * length;
-        let surface = count * std::f64::consts::PI * bar.diameter_mm.get() * length;
+        let surface = count * PI * bar.diameter_mm.get() * length;
         let trusses = volume(&beam, record.elements.clone());
         let bonds = volume(&beam, record.bond.clone());
         assert!((trusses / steel - 1.0).abs() < 1e-12, "{trusses}, {steel}");
@@ -114,32 +117,84 @@ fn an_end_on_a_face_makes_no_sliver() {
     }
 }
 
+/// Share that slip of the bottom bar adds to the deflection `total` (mm) of the uncracked beam under self weight, by
+/// the theory of partial interaction of beams: with the force N and the slip s of the bar at the distance e below the
+/// axis of the rest of the section, of stiffness EI and EC,
+/// N'' = k ((1/EA + 1/EC + e^2/EI) N - M e/EI), N = 0 at its ends, k = pi phi K0, curvature (M - N e)/EI.
+fn added_by_slip(specimen: &Specimen, condition: Bond, total: f64) -> f64 {
+    const N: usize = 3000;
+    let curve = ModelCode::new(&ModelCodeParameters {
+        fcm_mpa: specimen.concrete.reported_strength_mpa.get(),
+        rib_spacing_mm: 16.0,
+        bond: condition,
+        confinement: Confinement::PullOut,
+    })
+    .unwrap();
+    let [bottom, top] = [0, 1].map(|i| {
+        let bar = &specimen.bars[i];
+        let stiffness = bar.steel.young_mpa.get() * bar.area_mm2.get();
+        (stiffness, bar.axis.y_mm.get())
+    });
+    let k = PI * specimen.bars[0].diameter_mm.get() * curve.stiffness();
+    let (b, h) = (specimen.half_width_mm(), specimen.beam.height_mm.get());
+    let concrete = specimen.concrete.young_mpa.get() * b * h;
+    let rest = concrete + top.0;
+    let axis = (0.5 * h * concrete + top.1 * top.0) / rest;
+    let bending =
+        concrete * (h * h / 12.0 + (0.5 * h - axis).powi(2)) + top.0 * (top.1 - axis).powi(2);
+    let e = axis - bottom.1;
+    let compliance = 1.0 / bottom.0 + 1.0 / rest + e * e / bending;
+    let w = super::laws::weight_density(specimen) * b * h;
+    let [left, right] = [0, 1].map(|i| specimen.supports[i].x_mm.get());
+    let (length, middle) = (specimen.beam.length_mm.get(), 0.5 * (left + right));
+    let moment = |x: f64| 0.5 * w * (length * ((x - left).max(0.0) + (x - right).max(0.0)) - x * x);
+    let axis = &specimen.bars[0].axis;
+    let (from, to) = (axis.x_from_mm.get(), axis.x_to_mm.get());
+    let step = (to - from) / N as f64;
+    let at = |i: usize| from + i as f64 * step;
+    // Thomas's algorithm on N(i-1) - c N(i) + N(i+1) = d(i).
+    let c = 2.0 + step * step * k * compliance;
+    let d = |i: usize| -step * step * k * moment(at(i)) * e / bending;
+    let (mut factor, mut value) = (vec![0.0; N], vec![0.0; N]);
+    for i in 1..N {
+        let pivot = -c - factor[i - 1];
+        factor[i] = 1.0 / pivot;
+        value[i] = (d(i) - value[i - 1]) / pivot;
+    }
+    let (mut force, mut added) = (0.0, 0.0);
+    for i in (1..N).rev() {
+        force = value[i] - factor[i] * force;
+        let rigid = moment(at(i)) * e / bending / compliance;
+        let unit = 0.5 * (middle - left - (at(i) - middle).abs()).max(0.0);
+        added += unit * (rigid - force) * e / bending * step;
+    }
+    added / total
+}
+
 /// Self weight is carried without a singular matrix, also by bars in the symmetry plane. Slip of the bottom bar adds
-/// less than 2 % to the deflection of the uncracked beam, in proportion to 1/K0 as the bond stiffens: after the theory
-/// of partial interaction the bar of a sinusoidal moment acts with 1/(1 + x), x = (pi/L)^2 E A/(pi phi K0). Good bond
-/// is 3.6 times as stiff as other, so that what it adds is 3.6 times less, and somewhat above that for x not small.
+/// to the deflection of the uncracked beam 0.75 to 1 times what the theory of partial interaction says, which takes no
+/// account of the give of the concrete around bar and supports; with good bond less than 2 % of the deflection.
 #[test]
 fn uncracked_beams_bend_as_with_perfect_bond() {
     let [target, weight] = under_weight(&beam(&perfect()));
     assert!((weight - 3477.0).abs() < 1.0, "{weight}");
     let both = specimen();
-    let bottom = |bond: &BarBond| {
+    for (i, condition) in [Bond::Good, Bond::Other].into_iter().enumerate() {
         let mut specimen = perfect();
-        specimen.bars[0].bond = bond.clone();
+        specimen.bars[0].bond = both.bars[i].bond.clone();
         let [deflection, carried] = under_weight(&beam(&specimen));
         assert!((carried - weight).abs() < 1.0, "{carried}");
-        deflection / target - 1.0
-    };
-    let [good, other] = [0, 1].map(|i| bottom(&both.bars[i].bond));
-    assert!((0.0..0.02).contains(&good), "{good}");
-    let ratio = other / good;
-    assert!((3.0..3.6).contains(&ratio), "{ratio}");
+        let added = deflection / target - 1.0;
+        let expected = added_by_slip(&specimen, condition, target);
+        assert!(condition == Bond::Other || added < 0.02, "{added}");
+        let ratio = added / expected;
+        assert!((0.75..1.0).contains(&ratio), "{added}, {expected}");
+    }
     let mut inside = both;
     for bar in &mut inside.bars {
         bar.axis.z_mm = 0.0.try_into().unwrap();
     }
     let [deflection, carried] = under_weight(&beam(&inside));
-    println!("{good} {other} {}", deflection / target);
     assert!((carried - weight).abs() < 1.0, "{carried}");
-    assert!((deflection / target - 1.0).abs() < 0.05, "{deflection}");
+    assert!((1.0..1.05).contains(&(deflection / target)), "{deflection}");
 }
