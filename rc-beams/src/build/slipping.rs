@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fe_contact::envelope::{Bond, Confinement, ModelCode, ModelCodeParameters};
+use fe_contact::envelope::ModelCode;
 use fe_contact::{BondSettings, BondSlip, BondSlipBar, Envelope, SlipDamage};
 use fe_core::element::{Element, ElementError};
 use fe_core::mesh::Mesh;
@@ -10,7 +10,7 @@ use fe_elements::{Bar, Hosts, Piece, Truss3};
 use nalgebra::Vector3;
 
 use super::{BuildError, ModelSettings, laws};
-use crate::spec::{self, BarBond, BondCondition, BondConfinement, Specimen};
+use crate::spec::{self, Specimen};
 
 /// Pieces shorter than this (mm) are rounding: the bar ends at the face, or begins there.
 const SHORT: f64 = 1e-6;
@@ -28,28 +28,11 @@ pub(super) fn bond(
     settings: &ModelSettings,
     bar: &spec::Bar,
 ) -> Result<Option<BondSlipBar>, BuildError> {
-    let BarBond::ModelCode {
-        condition,
-        confinement,
-        rib_spacing_mm,
-        ..
-    } = &bar.bond
-    else {
+    let strength = laws::mean_strength(specimen, settings.preset)?;
+    let Some(parameters) = bar.bond.parameters(strength) else {
         return Ok(None);
     };
-    let curve = ModelCode::new(&ModelCodeParameters {
-        fcm_mpa: laws::mean_strength(specimen, settings.preset)?,
-        rib_spacing_mm: rib_spacing_mm.get(),
-        bond: match condition {
-            BondCondition::Good => Bond::Good,
-            BondCondition::Other => Bond::Other,
-        },
-        confinement: match confinement {
-            BondConfinement::PullOut => Confinement::PullOut,
-            BondConfinement::Stirrups => Confinement::Stirrups,
-            BondConfinement::Unconfined => Confinement::None,
-        },
-    })?;
+    let curve = ModelCode::new(&parameters)?;
     let held = BondSettings::default();
     Ok(Some(BondSlipBar {
         diameter_mm: f64::from(bar.count_in_half.get()) * bar.diameter_mm.get(),

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 use fe_contact::Envelope;
-use fe_contact::envelope::{Bond, Confinement, ModelCode, ModelCodeParameters};
+use fe_contact::envelope::ModelCode;
 use fe_core::mesh::NodeId;
 use fe_core::state::StateStore;
 use fe_solver::control::StepControl;
@@ -121,15 +121,11 @@ fn an_end_on_a_face_makes_no_sliver() {
 /// the theory of partial interaction of beams: with the force N and the slip s of the bar at the distance e below the
 /// axis of the rest of the section, of stiffness EI and EC,
 /// N'' = k ((1/EA + 1/EC + e^2/EI) N - M e/EI), N = 0 at its ends, k = pi phi K0, curvature (M - N e)/EI.
-fn added_by_slip(specimen: &Specimen, condition: Bond, total: f64) -> f64 {
+fn added_by_slip(specimen: &Specimen, total: f64) -> f64 {
     const N: usize = 3000;
-    let curve = ModelCode::new(&ModelCodeParameters {
-        fcm_mpa: specimen.concrete.reported_strength_mpa.get(),
-        rib_spacing_mm: 16.0,
-        bond: condition,
-        confinement: Confinement::PullOut,
-    })
-    .unwrap();
+    let strength = specimen.concrete.reported_strength_mpa.get();
+    let parameters = specimen.bars[0].bond.parameters(strength).unwrap();
+    let curve = ModelCode::new(&parameters).unwrap();
     let [bottom, top] = [0, 1].map(|i| {
         let bar = &specimen.bars[i];
         let stiffness = bar.steel.young_mpa.get() * bar.area_mm2.get();
@@ -173,20 +169,21 @@ fn added_by_slip(specimen: &Specimen, condition: Bond, total: f64) -> f64 {
 
 /// Self weight is carried without a singular matrix, also by bars in the symmetry plane. Slip of the bottom bar adds
 /// to the deflection of the uncracked beam 0.75 to 1 times what the theory of partial interaction says, which takes no
-/// account of the give of the concrete around bar and supports; with good bond less than 2 % of the deflection.
+/// account of the give of the concrete around bar and supports; that is less than 2 % of the deflection with good bond
+/// and less than 4 % with other bond.
 #[test]
 fn uncracked_beams_bend_as_with_perfect_bond() {
     let [target, weight] = under_weight(&beam(&perfect()));
     assert!((weight - 3477.0).abs() < 1.0, "{weight}");
     let both = specimen();
-    for (i, condition) in [Bond::Good, Bond::Other].into_iter().enumerate() {
+    for (i, most) in [0.02, 0.04].into_iter().enumerate() {
         let mut specimen = perfect();
         specimen.bars[0].bond = both.bars[i].bond.clone();
         let [deflection, carried] = under_weight(&beam(&specimen));
         assert!((carried - weight).abs() < 1.0, "{carried}");
         let added = deflection / target - 1.0;
-        let expected = added_by_slip(&specimen, condition, target);
-        assert!(condition == Bond::Other || added < 0.02, "{added}");
+        let expected = added_by_slip(&specimen, target);
+        assert!((0.0..most).contains(&added), "{added}");
         let ratio = added / expected;
         assert!((0.75..1.0).contains(&ratio), "{added}, {expected}");
     }

@@ -1,5 +1,6 @@
 //! Reinforcement of a specimen: longitudinal bars and stirrups.
 
+use fe_contact::envelope::{Bond, Confinement, ModelCodeParameters};
 use serde::{Deserialize, Serialize};
 
 use super::quantity::{
@@ -184,6 +185,34 @@ pub struct Row {
     pub first_mm: Coordinate,
     /// Distance between stirrups (mm).
     pub spacing_mm: Spacing,
+}
+
+impl BarBond {
+    /// Parameters of the curve in concrete of the mean strength `fcm_mpa` (MPa); `None` if the bond is perfect.
+    pub fn parameters(&self, fcm_mpa: f64) -> Option<ModelCodeParameters> {
+        let Self::ModelCode {
+            condition,
+            confinement,
+            rib_spacing_mm,
+            ..
+        } = self
+        else {
+            return None;
+        };
+        Some(ModelCodeParameters {
+            fcm_mpa,
+            rib_spacing_mm: rib_spacing_mm.get(),
+            bond: match condition {
+                BondCondition::Good => Bond::Good,
+                BondCondition::Other => Bond::Other,
+            },
+            confinement: match confinement {
+                BondConfinement::PullOut => Confinement::PullOut,
+                BondConfinement::Stirrups => Confinement::Stirrups,
+                BondConfinement::Unconfined => Confinement::None,
+            },
+        })
+    }
 }
 
 impl Zone {

@@ -3,12 +3,12 @@
 use std::f64::consts::FRAC_PI_4;
 use std::ops::RangeInclusive;
 
-use fe_contact::envelope::{Bond, Confinement, ModelCode, ModelCodeParameters};
+use fe_contact::envelope::{Confinement, ModelCode, ModelCodeParameters};
 use fe_core::material::MaterialError;
 
 use super::{ALONG, Checks, TOLERANCE};
 use crate::spec::quantity::{BarArea, BarDiameter};
-use crate::spec::reinforcement::{Bar, BarBond, BondCondition, Steel, Stirrups, Zone};
+use crate::spec::reinforcement::{Bar, BarBond, Steel, Stirrups, Zone};
 
 /// Smallest and largest cross-section of a bar over the circle of its diameter.
 const AREA_RATIO: RangeInclusive<f64> = 0.8..=1.1;
@@ -56,22 +56,13 @@ impl Checks<'_> {
 
     /// Bond softens from the end of its plateau to the slip of one rib spacing. Pull-out has the longest plateau.
     fn bond(&mut self, path: &str, bond: &BarBond) {
-        let BarBond::ModelCode {
-            condition,
-            rib_spacing_mm,
-            ..
-        } = bond
-        else {
+        let strength = self.specimen.concrete.reported_strength_mpa.get();
+        let Some(parameters) = bond.parameters(strength) else {
             return;
         };
         let curve = ModelCode::new(&ModelCodeParameters {
-            fcm_mpa: self.specimen.concrete.reported_strength_mpa.get(),
-            rib_spacing_mm: rib_spacing_mm.get(),
-            bond: match condition {
-                BondCondition::Good => Bond::Good,
-                BondCondition::Other => Bond::Other,
-            },
             confinement: Confinement::PullOut,
+            ..parameters
         });
         if let Err(MaterialError::Parameter {
             value,
