@@ -15,7 +15,7 @@ pub mod truss3;
 
 use fe_core::points;
 
-pub use embedded_bar::{Bar, Dowel, EmbeddedBar, embed};
+pub use embedded_bar::{Bar, Dowel, EmbeddedBar, Hosts, Piece, embed};
 pub use hex20::{BandWidth, Hex20, HexRule};
 pub use installed::Installed;
 pub use membrane8::Membrane8;

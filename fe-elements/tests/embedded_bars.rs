@@ -10,7 +10,7 @@ use fe_core::kinematics::Axial;
 use fe_core::material::{Material, MaterialError, PointContext, Response, StateVar};
 use fe_core::mesh::{CellKind, Mesh};
 use fe_core::shape::hex20;
-use fe_elements::{Bar, EmbeddedBar, embed};
+use fe_elements::{Bar, EmbeddedBar, Hosts, embed};
 use nalgebra::{Vector1, Vector3};
 use proptest::prelude::*;
 
@@ -212,6 +212,28 @@ fn bars_are_hosted_by_the_named_blocks() {
         message.contains("middle") && message.contains("left, right"),
         "{message}"
     );
+}
+
+/// Pieces of a bar follow one another from its first end to its last, each inside the host it names.
+#[test]
+fn pieces_are_a_chain_along_the_bar() {
+    let mesh = block(3.0, 7);
+    let hosts = Hosts::new(&mesh, &["block"]).unwrap();
+    let ends = [[1.0, 20.0, 40.0], [89.0, 70.0, 43.0]].map(Vector3::from);
+    let pieces = hosts.cut(&bar(ends.map(Into::into).into())).unwrap();
+    assert!(pieces.len() >= 3);
+    let mut reached = ends[0];
+    for piece in &pieces {
+        assert!((piece.ends[0] - reached).norm() < 1e-12);
+        assert!((piece.start - (reached - ends[0]).norm()).abs() < 1e-9);
+        let (_, coords) = hosts.cell(piece.host).unwrap();
+        let middle = 0.5 * (piece.ends[0] + piece.ends[1]);
+        let xi = hex20::inverse_map(&coords, middle.into()).unwrap();
+        assert!(xi.iter().all(|c| c.abs() <= 1.0), "{xi:?}");
+        reached = piece.ends[1];
+    }
+    assert!((reached - ends[1]).norm() < 1e-9);
+    assert!(hosts.cell(27).is_none());
 }
 
 /// Impossible bars are refused with the quantity and the remedy.

@@ -6,11 +6,12 @@ use rc_beams::options::RunOptions;
 use rc_beams::spec::read;
 
 const MANUAL: &str = include_str!("../README.md");
-const BEAMS: [&str; 4] = [
+const BEAMS: [&str; 5] = [
     include_str!("../specimens/A-SO3-1.ron"),
     include_str!("../specimens/B-CO1.ron"),
     include_str!("../specimens/B-CF4.ron"),
     include_str!("../specimens/examples/A-SO3-4-staged.ron"),
+    include_str!("../specimens/examples/A-SO3-1-slip.ron"),
 ];
 
 /// The cells of the rows of the table that give a field and a range of numbers.

@@ -29,13 +29,15 @@ pub(super) struct Host {
 
 /// A straight piece of a bar inside one host.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Piece {
-    pub(super) host: usize,
-    pub(super) ends: [Vector3<f64>; 2],
+pub struct Piece {
+    /// Number of the host among the [`Hosts`](super::Hosts).
+    pub host: usize,
+    /// Ends (mm).
+    pub ends: [Vector3<f64>; 2],
     /// Unit vector from the first end to the second.
-    pub(super) direction: Vector3<f64>,
+    pub direction: Vector3<f64>,
     /// Arc length of the first end along the bar (mm).
-    pub(super) start: f64,
+    pub start: f64,
 }
 
 /// A segment a + t (b - a), t in [0, 1].

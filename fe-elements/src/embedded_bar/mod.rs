@@ -9,6 +9,7 @@ mod cut;
 mod dowel;
 mod element;
 
+pub use cut::Piece;
 pub use dowel::Dowel;
 pub use element::EmbeddedBar;
 
@@ -21,7 +22,7 @@ use fe_core::mesh::{CellKind, Mesh, NodeId};
 use fe_core::shape::hex20;
 use nalgebra::Vector3;
 
-use cut::{Host, Piece};
+use cut::Host;
 
 /// A bar before it is embedded.
 #[derive(Debug, Clone)]
@@ -105,11 +106,60 @@ pub fn embed(
     mesh: &Mesh,
     host_blocks: &[&str],
 ) -> Result<Vec<EmbeddedBar>, ElementError> {
-    let hosts = hosts(mesh, host_blocks)?;
+    let hosts = Hosts::new(mesh, host_blocks)?;
     let mut elements = Vec::new();
     for bar in bars {
+        let mut by_host: Vec<(usize, Vec<Piece>)> = Vec::new();
+        for piece in hosts.cut(bar)? {
+            match by_host.iter_mut().find(|(h, _)| *h == piece.host) {
+                Some((_, own)) => own.push(piece),
+                None => by_host.push((piece.host, vec![piece])),
+            }
+        }
+        for (host, pieces) in by_host {
+            elements.push(EmbeddedBar::new(bar, &hosts.0[host], &pieces)?);
+        }
+    }
+    Ok(elements)
+}
+
+/// Hexahedra that can carry bars.
+#[derive(Debug, Clone)]
+pub struct Hosts(Vec<Host>);
+
+impl Hosts {
+    /// Cells of the named blocks, in the order of the mesh.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::NoSuchBlock`] for a name that no block of hexahedra has.
+    pub fn new(mesh: &Mesh, blocks: &[&str]) -> Result<Self, ElementError> {
+        let hexahedra = || mesh.blocks().iter().filter(|b| b.kind == CellKind::Hex20);
+        if let Some(unknown) = blocks.iter().find(|n| hexahedra().all(|b| b.name != **n)) {
+            let known: Vec<&str> = hexahedra().map(|b| b.name.as_str()).collect();
+            return Err(ElementError::NoSuchBlock {
+                block: (*unknown).into(),
+                known: known.join(", "),
+            });
+        }
+        let named = hexahedra().filter(|b| blocks.contains(&b.name.as_str()));
+        let host = |cell: &[NodeId]| {
+            let nodes: [NodeId; 20] = std::array::from_fn(|a| cell[a]);
+            Host::new(nodes, &nodes.map(|n| mesh.nodes()[n]))
+        };
+        Ok(Self(named.flat_map(|b| b.cells().map(host)).collect()))
+    }
+
+    /// Cuts a bar at every face of its hosts. The pieces follow one another along the bar, each begins where the
+    /// one before it ends, and each lies in exactly one host: of several that hold it, the first.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::NoHost`] naming the first point of the bar that lies in no host, [`ElementError::Input`] for an
+    /// impossible bar.
+    pub fn cut(&self, bar: &Bar) -> Result<Vec<Piece>, ElementError> {
         bar.check()?;
-        let mut pieces: Vec<Piece> = Vec::new();
+        let mut pieces = Vec::new();
         let mut travelled = 0.0;
         for ends in bar.polyline.windows(2) {
             let (a, b) = (Vector3::from(ends[0]), Vector3::from(ends[1]));
@@ -117,39 +167,16 @@ pub fn embed(
             if length == 0.0 {
                 continue;
             }
-            pieces.extend(cut::cut(&bar.name, a, b, travelled, &hosts)?);
+            pieces.extend(cut::cut(&bar.name, a, b, travelled, &self.0)?);
             travelled += length;
         }
-        let mut by_host: Vec<(usize, Vec<Piece>)> = Vec::new();
-        for piece in pieces {
-            match by_host.iter_mut().find(|(h, _)| *h == piece.host) {
-                Some((_, own)) => own.push(piece),
-                None => by_host.push((piece.host, vec![piece])),
-            }
-        }
-        for (host, pieces) in by_host {
-            elements.push(EmbeddedBar::new(bar, &hosts[host], &pieces)?);
-        }
+        Ok(pieces)
     }
-    Ok(elements)
-}
 
-/// Cells of the named blocks, in the order of the mesh.
-fn hosts(mesh: &Mesh, names: &[&str]) -> Result<Vec<Host>, ElementError> {
-    let hexahedra = || mesh.blocks().iter().filter(|b| b.kind == CellKind::Hex20);
-    if let Some(unknown) = names.iter().find(|n| hexahedra().all(|b| b.name != **n)) {
-        let known: Vec<&str> = hexahedra().map(|b| b.name.as_str()).collect();
-        return Err(ElementError::NoSuchBlock {
-            block: (*unknown).into(),
-            known: known.join(", "),
-        });
+    /// Nodes and coordinates (mm) of a host, `None` if there is none of that number.
+    pub fn cell(&self, host: usize) -> Option<([NodeId; 20], [[f64; 3]; 20])> {
+        self.0.get(host).map(|h| (h.nodes, h.coords))
     }
-    let named = hexahedra().filter(|b| names.contains(&b.name.as_str()));
-    let host = |cell: &[NodeId]| {
-        let nodes: [NodeId; 20] = std::array::from_fn(|a| cell[a]);
-        Host::new(nodes, &nodes.map(|n| mesh.nodes()[n]))
-    };
-    Ok(named.flat_map(|b| b.cells().map(host)).collect())
 }
 
 /// Gradients (1/mm) of the host's shape functions at a point (mm) inside it.

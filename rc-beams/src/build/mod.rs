@@ -10,6 +10,9 @@ mod settings;
 #[cfg(test)]
 mod sheet_tests;
 mod sheets;
+mod slipping;
+#[cfg(test)]
+mod slipping_tests;
 #[cfg(test)]
 mod tests;
 
@@ -197,16 +200,8 @@ impl Beam {
         }
         let plates = concrete.end..elements.len();
         let hosts: Vec<&str> = concrete_laws.iter().map(|(name, _)| *name).collect();
-        let mut bars = Vec::new();
-        for (bar, record) in reinforcement::bars(specimen, settings)? {
-            let first = elements.len();
-            let pieces = fe_elements::embed(&[bar], &mesh, &hosts)?;
-            elements.extend(pieces.into_iter().map(|e| Box::new(e) as Box<dyn Element>));
-            bars.push(BarRecord {
-                elements: first..elements.len(),
-                ..record
-            });
-        }
+        let carrier = (&mut mesh, hosts.as_slice());
+        let bars = reinforcement::lay(specimen, settings, carrier, &mut elements)?;
         let sheets = match sheets {
             Some(sheets) => {
                 let carrier = (&mut mesh, hosts.as_slice());

@@ -1,14 +1,17 @@
-//! Bars and stirrups of a specimen as embedded bars.
+//! Bars and stirrups of a specimen: embedded, or slipping where the specimen gives a law of bond.
 
 use std::ops::Range;
 use std::sync::Arc;
 
+use fe_contact::BondSlipBar;
+use fe_core::element::Element;
 use fe_core::kinematics::Axial;
 use fe_core::material::Material;
+use fe_core::mesh::Mesh;
 use fe_elements::{Bar, Dowel};
 use fe_materials::Biso;
 
-use super::{BuildError, ModelSettings, laws};
+use super::{BuildError, ModelSettings, laws, slipping};
 use crate::spec::{Specimen, Steel};
 
 /// What a bar is for.
@@ -33,15 +36,44 @@ pub struct BarRecord {
     pub ends: [[f64; 3]; 2],
     /// Yield stress (MPa).
     pub fy_mpa: f64,
-    /// Elements it was cut into, in no particular order along the bar.
+    /// Elements it was cut into, in no particular order along the bar; their samples are axial.
     pub elements: Range<usize>,
+    /// Elements of its bond; none where it is perfect.
+    pub bond: Range<usize>,
 }
 
-/// Every bar of the half model with its record, elements still empty.
-pub(super) fn bars(
+/// Lays every bar in the concrete `blocks` and adds its elements; a slipping bar adds nodes as well.
+pub(super) fn lay(
     specimen: &Specimen,
     settings: &ModelSettings,
-) -> Result<Vec<(Bar, BarRecord)>, BuildError> {
+    (mesh, blocks): (&mut Mesh, &[&str]),
+    elements: &mut Vec<Box<dyn Element>>,
+) -> Result<Vec<BarRecord>, BuildError> {
+    let mut records = Vec::new();
+    for (bar, slip, mut record) in bars(specimen, settings)? {
+        let first = elements.len();
+        let mut bonds = Vec::new();
+        if let Some(slip) = slip {
+            let (steel, around) = slipping::lay(&bar, &slip, mesh, blocks)?;
+            elements.extend(steel);
+            bonds = around;
+        } else {
+            let pieces = fe_elements::embed(&[bar], mesh, blocks)?;
+            elements.extend(pieces.into_iter().map(|e| Box::new(e) as Box<dyn Element>));
+        }
+        record.elements = first..elements.len();
+        elements.extend(bonds);
+        record.bond = record.elements.end..elements.len();
+        records.push(record);
+    }
+    Ok(records)
+}
+
+/// Every bar of the half model with its bond, unless perfect, and its record, elements still empty.
+fn bars(
+    specimen: &Specimen,
+    settings: &ModelSettings,
+) -> Result<Vec<(Bar, Option<BondSlipBar>, BarRecord)>, BuildError> {
     let mut bars = Vec::new();
     let stock = |area_mm2: f64, diameter: f64, steel: &Steel| -> Result<Stock, BuildError> {
         Ok(Stock {
@@ -56,7 +88,8 @@ pub(super) fn bars(
         let stock = stock(area, b.diameter_mm.get(), &b.steel)?;
         let at = |x: f64| [x, b.axis.y_mm.get(), b.axis.z_mm.get()];
         let ends = [at(b.axis.x_from_mm.get()), at(b.axis.x_to_mm.get())];
-        bars.push(stock.bar(b.name.clone(), BarKind::Longitudinal, ends));
+        let (bar, record) = stock.bar(b.name.clone(), BarKind::Longitudinal, ends);
+        bars.push((bar, slipping::bond(specimen, settings, b)?, record));
     }
     if let Some(s) = &specimen.stirrups {
         let stock = stock(s.area_mm2.get(), s.diameter_mm.get(), &s.steel)?;
@@ -64,11 +97,13 @@ pub(super) fn bars(
             let leg = &s.shape.vertical;
             let ends = [&leg.y_from_mm, &leg.y_to_mm].map(|y| [x, y.get(), leg.z_mm.get()]);
             let name = format!("stirrup at {x}");
-            bars.push(stock.bar(name, BarKind::StirrupLeg(x), ends));
+            let (bar, record) = stock.bar(name, BarKind::StirrupLeg(x), ends);
+            bars.push((bar, None, record));
             for tie in &s.shape.horizontal {
                 let y = tie.y_mm.get();
                 let ends = [&tie.z_from_mm, &tie.z_to_mm].map(|z| [x, y, z.get()]);
-                bars.push(stock.bar(format!("tie at {x}, {y}"), BarKind::Tie, ends));
+                let (bar, record) = stock.bar(format!("tie at {x}, {y}"), BarKind::Tie, ends);
+                bars.push((bar, None, record));
             }
         }
     }
@@ -98,6 +133,7 @@ impl Stock {
             ends,
             fy_mpa: self.fy_mpa,
             elements: 0..0,
+            bond: 0..0,
         };
         (bar, record)
     }

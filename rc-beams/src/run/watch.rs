@@ -151,6 +151,7 @@ fn parts(beam: &Beam) -> Vec<usize> {
     assign(beam.plates.clone(), 1);
     for bar in &beam.bars {
         assign(bar.elements.clone(), 2);
+        assign(bar.bond.clone(), 5);
     }
     if let Some(sheets) = &beam.sheets {
         assign(sheets.membranes.clone(), 3);

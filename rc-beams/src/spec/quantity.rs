@@ -165,6 +165,8 @@ quantities! {
     BarDiameter: MM in 3.0 to 60.0;
     /// Cross-section of a bar or of one leg of a stirrup (mm2).
     BarArea: MM2 in 5.0 to 3000.0;
+    /// Clear distance between the ribs of a bar (mm).
+    RibSpacing: MM in 1.0 to 50.0;
     /// Length of a beam (mm).
     BeamLength: MM in 500.0 to 20000.0;
     /// Width or height of a section (mm).

@@ -49,7 +49,8 @@ mod tests {
     /// Protects what a run writes of its specimen: it is read back as the same specimen.
     #[test]
     fn a_specimen_survives_writing_and_reading() {
-        for (name, text) in BUILTIN {
+        let slip = include_str!("../../specimens/examples/A-SO3-1-slip.ron");
+        for (name, text) in BUILTIN.iter().chain(&[("slip", slip)]) {
             let specimen = read(name, text).unwrap();
             let written = ron::ser::to_string_pretty(&specimen, ron::ser::PrettyConfig::default());
             assert_eq!(read(name, &written.unwrap()).unwrap(), specimen);

@@ -1,9 +1,10 @@
 //! Reinforcement of a specimen: longitudinal bars and stirrups.
 
+use fe_contact::envelope::{Bond, Confinement, ModelCodeParameters};
 use serde::{Deserialize, Serialize};
 
 use super::quantity::{
-    BarArea, BarCount, BarDiameter, Coordinate, HardeningRatio, Spacing, SteelModulus,
+    BarArea, BarCount, BarDiameter, Coordinate, HardeningRatio, RibSpacing, Spacing, SteelModulus,
     SteelStrength,
 };
 use super::specimen::Span;
@@ -43,8 +44,53 @@ pub struct Bar {
     pub source: String,
     /// Steel.
     pub steel: Steel,
+    /// Bond to the concrete.
+    #[serde(default)]
+    pub bond: BarBond,
     /// Where the bar lies.
     pub axis: Axis,
+}
+
+/// Bond of longitudinal bars to the concrete.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum BarBond {
+    /// The bar moves as the concrete around it.
+    #[default]
+    Perfect,
+    /// Bond stress over slip of ribbed bars, fib Model Code 2010, 6.1.1.1.
+    ModelCode {
+        /// Bond condition.
+        condition: BondCondition,
+        /// What ends the bond.
+        #[serde(default)]
+        confinement: BondConfinement,
+        /// Clear distance between the ribs (mm).
+        rib_spacing_mm: RibSpacing,
+        /// Source of the values.
+        source: String,
+    },
+}
+
+/// Bond condition of a bar (fib Model Code 2010, 6.1.3.2).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum BondCondition {
+    /// Good: the concrete under and around the bar was placed well, as at the bottom of the form.
+    Good,
+    /// All other conditions.
+    Other,
+}
+
+/// What ends the bond of a bar.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum BondConfinement {
+    /// The bar is pulled out: cover and confinement keep the concrete from splitting.
+    #[default]
+    PullOut,
+    /// The concrete splits, held by stirrups.
+    Stirrups,
+    /// The concrete splits, held by nothing.
+    Unconfined,
 }
 
 /// Axis of a straight longitudinal bar.
@@ -139,6 +185,34 @@ pub struct Row {
     pub first_mm: Coordinate,
     /// Distance between stirrups (mm).
     pub spacing_mm: Spacing,
+}
+
+impl BarBond {
+    /// Parameters of the curve in concrete of the mean strength `fcm_mpa` (MPa); `None` if the bond is perfect.
+    pub fn parameters(&self, fcm_mpa: f64) -> Option<ModelCodeParameters> {
+        let Self::ModelCode {
+            condition,
+            confinement,
+            rib_spacing_mm,
+            ..
+        } = self
+        else {
+            return None;
+        };
+        Some(ModelCodeParameters {
+            fcm_mpa,
+            rib_spacing_mm: rib_spacing_mm.get(),
+            bond: match condition {
+                BondCondition::Good => Bond::Good,
+                BondCondition::Other => Bond::Other,
+            },
+            confinement: match confinement {
+                BondConfinement::PullOut => Confinement::PullOut,
+                BondConfinement::Stirrups => Confinement::Stirrups,
+                BondConfinement::Unconfined => Confinement::None,
+            },
+        })
+    }
 }
 
 impl Zone {

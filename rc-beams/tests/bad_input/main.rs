@@ -1,6 +1,7 @@
 //! Protects the first hour of a new user: every mistake in an input gets one clear message with file,
 //! line, column, field, allowed range and remedy, a code other than 0, and changes no file.
 
+mod bond;
 mod sheets;
 
 use std::fs;

@@ -3,9 +3,12 @@
 use std::f64::consts::FRAC_PI_4;
 use std::ops::RangeInclusive;
 
+use fe_contact::envelope::{Confinement, ModelCode, ModelCodeParameters};
+use fe_core::material::MaterialError;
+
 use super::{ALONG, Checks, TOLERANCE};
 use crate::spec::quantity::{BarArea, BarDiameter};
-use crate::spec::reinforcement::{Bar, Steel, Stirrups, Zone};
+use crate::spec::reinforcement::{Bar, BarBond, Steel, Stirrups, Zone};
 
 /// Smallest and largest cross-section of a bar over the circle of its diameter.
 const AREA_RATIO: RangeInclusive<f64> = 0.8..=1.1;
@@ -32,6 +35,7 @@ impl Checks<'_> {
     fn bar(&mut self, path: &str, bar: &Bar) {
         self.steel(path, &bar.steel);
         self.area(path, bar.diameter_mm, bar.area_mm2);
+        self.bond(path, &bar.bond);
         let radius = 0.5 * bar.diameter_mm.get();
         let axis = &bar.axis;
         let (from, to) = (axis.x_from_mm.get(), axis.x_to_mm.get());
@@ -48,6 +52,31 @@ impl Checks<'_> {
             ALONG,
         );
         self.ascending(format!("{path}.axis.x_to_mm"), from, to);
+    }
+
+    /// Bond softens from the end of its plateau to the slip of one rib spacing. Pull-out has the longest plateau.
+    fn bond(&mut self, path: &str, bond: &BarBond) {
+        let strength = self.specimen.concrete.reported_strength_mpa.get();
+        let Some(parameters) = bond.parameters(strength) else {
+            return;
+        };
+        let curve = ModelCode::new(&ModelCodeParameters {
+            confinement: Confinement::PullOut,
+            ..parameters
+        });
+        if let Err(MaterialError::Parameter {
+            value,
+            allowed,
+            remedy,
+            ..
+        }) = curve
+        {
+            self.report(
+                format!("{path}.bond.rib_spacing_mm"),
+                format!("{value} mm; allowed: {allowed}"),
+                remedy,
+            );
+        }
     }
 
     fn steel(&mut self, path: &str, steel: &Steel) {
