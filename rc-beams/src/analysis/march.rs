@@ -25,7 +25,7 @@ struct March<'a> {
 ///
 /// # Errors
 ///
-/// [`SolverError`] when the beam cannot carry its own weight or the model is singular, [`BuildError`]; later
+/// [`AnalysisError`] when the beam cannot carry its own weight or the model is singular, or a model cannot be built; later
 /// failures end the path and are kept in [`Outcome::stop`].
 pub fn analyse(
     beam: &Beam,
