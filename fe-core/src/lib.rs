@@ -33,6 +33,7 @@ pub mod element;
 pub mod energy;
 pub mod grid;
 pub mod kinematics;
+pub mod limits;
 pub mod material;
 pub mod mesh;
 pub mod model;

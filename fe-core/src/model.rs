@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use crate::dof::{Dof, DofMap};
-use crate::element::{Element, ElementError};
+use crate::element::{Element, ElementError, PointSample};
 use crate::mesh::{Mesh, NodeId};
+use crate::state::StateStore;
 
 /// What can go wrong with a model as a whole.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -118,6 +119,24 @@ impl Model {
     pub fn gather(&self, element: usize, u: &[f64]) -> Vec<f64> {
         let dofs = self.dofs.element_dofs(self.elements[element].as_ref());
         dofs.iter().map(|&d| u[d as usize]).collect()
+    }
+
+    /// Calls `visit` for every integration point of an element at the displacement `u` of all DOFs and the committed
+    /// `state`.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError::Element`].
+    pub fn sample(
+        &self,
+        element: usize,
+        u: &[f64],
+        state: &StateStore,
+        visit: &mut dyn FnMut(PointSample<'_>),
+    ) -> Result<(), ModelError> {
+        self.elements[element]
+            .sample(&self.gather(element, u), state.committed(element), visit)
+            .map_err(|source| self.locate(element, source))
     }
 
     /// Wraps an element's error with its place.

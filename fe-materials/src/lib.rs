@@ -38,9 +38,10 @@ mod elastic;
 mod elasticity;
 pub mod fixed_crack;
 mod lamina;
-mod limits;
 mod plastic_state;
 mod von_mises;
+
+use fe_core::limits;
 
 pub use biso::{Biso, Hardening};
 pub use elastic::Elastic;

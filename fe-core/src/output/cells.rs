@@ -46,11 +46,7 @@ pub fn cell_grid(
         };
         grid.add_cell(kind.vtk_type(), element.nodes());
         let mut mean = Mean::default();
-        element
-            .sample(&model.gather(e, u), state.committed(e), &mut |s| {
-                mean.add(&s);
-            })
-            .map_err(|source| model.locate(e, source))?;
+        model.sample(e, u, state, &mut |s| mean.add(&s))?;
         fields.push(&mean);
     }
     grid.cell_data = fields.0.into();

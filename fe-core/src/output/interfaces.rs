@@ -48,11 +48,7 @@ pub fn interface_grid(
             displacement.values.extend(values);
         }
         let mut mean = Mean::default();
-        element
-            .sample(&model.gather(e, u), state.committed(e), &mut |s| {
-                mean.add(&s);
-            })
-            .map_err(|source| model.locate(e, source))?;
+        model.sample(e, u, state, &mut |s| mean.add(&s))?;
         jump.values.extend(mean.jump.map(|v| v / mean.area));
         traction.values.extend(mean.traction.map(|v| v / mean.area));
         for (array, sum) in histories.iter_mut().zip(mean.histories) {

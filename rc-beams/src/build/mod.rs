@@ -16,7 +16,6 @@ mod slipping_tests;
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use fe_core::dof::Dof;
@@ -144,14 +143,11 @@ impl Beam {
         };
         let sheets = specimen.sheets.as_ref();
         let mut beam = Self::build(specimen, settings, sheets, Some(&displaced))?;
-        let mut below: BTreeMap<NodeId, NodeId> = BTreeMap::new();
-        if let Some(sheets) = &beam.sheets {
-            below.extend(sheets.nodes.iter().map(|&(below, above)| (above, below)));
-        }
         let start: Vec<f64> = (0..beam.model.dofs().len())
             .map(|d| {
                 let (node, dof) = beam.model.dofs().owner(d);
-                let node = below.get(&node).copied().unwrap_or(node);
+                let sheets = beam.sheets.as_ref();
+                let node = sheets.map_or(node, |sheets| sheets.carrier(node));
                 dofs.index(node, dof).map_or(0.0, |d| u[d])
             })
             .collect();
@@ -247,12 +243,8 @@ fn install(
     record: &SheetRecord,
     displaced: &Displaced<'_>,
 ) -> Result<Box<dyn Element>, ElementError> {
-    let below = |node: NodeId| {
-        let pair = record.nodes.iter().find(|(_, above)| *above == node);
-        pair.map_or(node, |(below, _)| *below)
-    };
-    let origin = element.nodes().iter().flat_map(|&n| displaced(below(n)));
-    let origin = origin.collect();
+    let nodes = element.nodes().iter();
+    let origin = nodes.flat_map(|&n| displaced(record.carrier(n))).collect();
     Ok(Box::new(Installed::new(element, origin)?))
 }
 

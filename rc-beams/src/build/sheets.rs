@@ -1,5 +1,6 @@
 //! Fibre sheets on the faces of the concrete, and what bonds them.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -68,11 +69,16 @@ pub struct SheetRecord {
     pub adhesive: Range<usize>,
     /// Interface elements.
     pub interfaces: Range<usize>,
-    /// Nodes of sheet and adhesive, each with the node of the concrete it lies over.
-    pub nodes: Vec<(NodeId, NodeId)>,
+    /// Node of the concrete under every node of sheet and adhesive.
+    pub below: BTreeMap<NodeId, NodeId>,
 }
 
 impl SheetRecord {
+    /// The node of the concrete under a node, itself where it is one of the concrete.
+    pub(super) fn carrier(&self, node: NodeId) -> NodeId {
+        self.below.get(&node).copied().unwrap_or(node)
+    }
+
     /// The same with all elements counted from `first`.
     pub(super) fn from(mut self, first: usize) -> Self {
         for range in [
@@ -109,7 +115,7 @@ pub(super) fn lay(
         membranes: 0..0,
         adhesive: 0..0,
         interfaces: 0..0,
-        nodes: Vec::new(),
+        below: BTreeMap::new(),
         curve,
         bond: bond.clone(),
     };
@@ -184,7 +190,9 @@ pub(super) fn lay(
                     laminate.clone(),
                 )?));
             }
-            record.nodes.extend(layers.pairs());
+            record
+                .below
+                .extend(layers.pairs().map(|(below, above)| (above, below)));
         }
     }
     let mut elements = parts.membranes;

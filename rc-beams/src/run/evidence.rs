@@ -1,6 +1,6 @@
 //! What the rules for the mode of failure look at, read off a state of the model.
 
-use fe_core::model::{Model, ModelError};
+use fe_core::model::ModelError;
 
 use crate::analysis::Snapshot;
 use crate::build::{BarKind, Beam};
@@ -51,9 +51,10 @@ const fn is_stirrup(kind: BarKind) -> bool {
 pub(super) fn snapshot(beam: &Beam, at: &Snapshot) -> Result<evidence::Snapshot, ModelError> {
     let mut concrete = Vec::new();
     for e in beam.concrete.clone() {
-        sample(&beam.model, e, at, &mut |s| {
-            concrete.push(ConcretePoint::from(s));
-        })?;
+        beam.model
+            .sample(e, &at.displacement, &at.state, &mut |s| {
+                concrete.push(ConcretePoint::from(&s));
+            })?;
     }
     let mut bars = Vec::new();
     let mut stirrups_yielded = 0;
@@ -64,12 +65,13 @@ pub(super) fn snapshot(beam: &Beam, at: &Snapshot) -> Result<evidence::Snapshot,
             utilisation: f64::NEG_INFINITY,
         };
         for e in bar.elements.clone() {
-            sample(&beam.model, e, at, &mut |s| {
-                let utilisation = s.stress[0] / bar.fy_mpa;
-                if utilisation > reach.utilisation {
-                    (reach.utilisation, reach.x_mm) = (utilisation, s.position[0]);
-                }
-            })?;
+            beam.model
+                .sample(e, &at.displacement, &at.state, &mut |s| {
+                    let utilisation = s.stress[0] / bar.fy_mpa;
+                    if utilisation > reach.utilisation {
+                        (reach.utilisation, reach.x_mm) = (utilisation, s.position[0]);
+                    }
+                })?;
         }
         match bar.kind {
             BarKind::Longitudinal => bars.push(reach),
@@ -82,16 +84,4 @@ pub(super) fn snapshot(beam: &Beam, at: &Snapshot) -> Result<evidence::Snapshot,
         bars,
         stirrups_yielded,
     })
-}
-
-fn sample(
-    model: &Model,
-    element: usize,
-    at: &Snapshot,
-    visit: &mut dyn FnMut(&fe_core::element::PointSample<'_>),
-) -> Result<(), ModelError> {
-    let u = model.gather(element, &at.displacement);
-    model.elements()[element]
-        .sample(&u, at.state.committed(element), &mut |s| visit(&s))
-        .map_err(|source| model.locate(element, source))
 }

@@ -54,39 +54,33 @@ pub(super) fn state(
             .first()
             .map_or(0.0, |p| p.thickness_mm);
         let thickness = cell.laminate.thickness_mm();
-        let own = model.gather(cell.membrane, u);
-        model.elements()[cell.membrane]
-            .sample(&own, state.committed(cell.membrane), &mut |s| {
-                let strain = Vector3::from_column_slice(s.strain);
-                seen.sheet.push(SheetPoint {
-                    position: s.position,
-                    zone: cell.zone,
-                    face,
-                    area_mm2: s.volume / thickness,
-                    thickness_mm: ply,
-                    fibre_stress_mpa: cell.laminate.fibre_stresses(&strain).next().unwrap_or(0.0),
-                    utilisation: s.report.utilisation,
-                });
-            })
-            .map_err(|source| model.locate(cell.membrane, source))?;
+        model.sample(cell.membrane, u, state, &mut |s| {
+            let strain = Vector3::from_column_slice(s.strain);
+            seen.sheet.push(SheetPoint {
+                position: s.position,
+                zone: cell.zone,
+                face,
+                area_mm2: s.volume / thickness,
+                thickness_mm: ply,
+                fibre_stress_mpa: cell.laminate.fibre_stresses(&strain).next().unwrap_or(0.0),
+                utilisation: s.report.utilisation,
+            });
+        })?;
         let Some(e) = cell.interface else {
             continue;
         };
-        let own = model.gather(e, u);
-        model.elements()[e]
-            .sample(&own, state.committed(e), &mut |s| {
-                seen.interface.push(InterfacePoint {
-                    position: s.position,
-                    zone: cell.zone,
-                    face,
-                    area_mm2: s.volume,
-                    slip_mm: s.strain[0].hypot(s.strain[1]),
-                    slip_max_mm: SlipDamage::slip_max(s.state),
-                    s0_mm,
-                    sf_mm,
-                });
-            })
-            .map_err(|source| model.locate(e, source))?;
+        model.sample(e, u, state, &mut |s| {
+            seen.interface.push(InterfacePoint {
+                position: s.position,
+                zone: cell.zone,
+                face,
+                area_mm2: s.volume,
+                slip_mm: s.strain[0].hypot(s.strain[1]),
+                slip_max_mm: SlipDamage::slip_max(s.state),
+                s0_mm,
+                sf_mm,
+            });
+        })?;
     }
     Ok(seen)
 }

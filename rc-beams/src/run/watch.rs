@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::io;
 
-use fe_core::element::PointSample;
 use fe_core::energy::{Cracking, Ledger};
 use fe_core::model::{Model, ModelError};
 use fe_core::state::StateStore;
@@ -166,14 +165,8 @@ fn steel_and_concrete<'a>(
     (model, u, state): (&Model, &[f64], &StateStore),
     (survey, cracking): (&mut Survey<'a>, &mut Cracking),
 ) -> Result<(), ModelError> {
-    let sample = |e: usize, visit: &mut dyn FnMut(PointSample<'_>)| {
-        let own = model.gather(e, u);
-        model.elements()[e]
-            .sample(&own, state.committed(e), visit)
-            .map_err(|source| model.locate(e, source))
-    };
     for (e, &band) in beam.concrete.clone().zip(&beam.bands) {
-        sample(e, &mut |s| {
+        model.sample(e, u, state, &mut |s| {
             cracking.point(&s);
             survey.concrete(&ConcretePoint::from(&s), band);
         })?;
@@ -181,7 +174,7 @@ fn steel_and_concrete<'a>(
     for bar in &beam.bars {
         let (name, fy) = (bar.name.as_str(), bar.fy_mpa);
         for e in bar.elements.clone() {
-            sample(e, &mut |s| match bar.kind {
+            model.sample(e, u, state, &mut |s| match bar.kind {
                 BarKind::Longitudinal => survey.bar(name, s.position, s.stress[0], fy),
                 BarKind::StirrupLeg(_) => survey.stirrup(name, s.position, s.stress[0], fy),
                 BarKind::Tie => {}

@@ -1,10 +1,10 @@
-//! Range checks of parameters and strains.
+//! Range checks that laws share: parameters, strains and jumps.
 
-use fe_core::material::MaterialError;
+use crate::material::MaterialError;
 use nalgebra::SVector;
 
 /// The error of a parameter outside its range.
-pub(crate) fn out_of_range(
+pub fn out_of_range(
     law: &'static str,
     parameter: &'static str,
     value: f64,
@@ -23,7 +23,11 @@ pub(crate) fn out_of_range(
 }
 
 /// Refuses a parameter that is not a positive finite number.
-pub(crate) fn positive(
+///
+/// # Errors
+///
+/// [`MaterialError::Parameter`].
+pub fn positive(
     law: &'static str,
     parameter: &'static str,
     value: f64,
@@ -38,8 +42,12 @@ pub(crate) fn positive(
     ))
 }
 
-/// Refuses a strain that is not a number.
-pub(crate) fn finite<const N: usize>(
+/// Refuses a strain or jump that is not a number.
+///
+/// # Errors
+///
+/// [`MaterialError::NotFinite`].
+pub fn finite<const N: usize>(
     law: &'static str,
     strain: &SVector<f64, N>,
 ) -> Result<(), MaterialError> {
