@@ -38,6 +38,8 @@ pub struct StepControl {
     pub easy: usize,
     /// Growth of the step after an easy one.
     pub growth: f64,
+    /// Share of a step that failed at which it is tried again.
+    pub cut: f64,
     /// What to do when the shortest step fails.
     pub on_failure: OnFailure,
 }
@@ -63,11 +65,19 @@ impl StepControl {
             criterion: 1e-3,
             easy: 8,
             growth: 1.3,
+            cut: 0.5,
             on_failure: OnFailure::Stop,
         }
     }
 
     fn check(&self) -> Result<(), SolverError> {
+        if !(self.cut > 0.0 && self.cut < 1.0) {
+            return Err(SolverError::Setting {
+                what: "cut of a failed step",
+                value: self.cut,
+                allowed: "(0, 1)",
+            });
+        }
         for (what, value) in [
             ("first step", self.initial),
             ("longest step", self.longest),
@@ -116,6 +126,7 @@ impl StepControl {
                 length.min(remaining)
             };
             attempts += 1;
+            let shorter = (self.cut * this).max(self.shortest);
             let can_shorten = 0.5 * this >= self.shortest;
             let plan = Plan {
                 step,
@@ -149,12 +160,12 @@ impl StepControl {
                 Ok(_) if can_shorten => {
                     stage.roll_back();
                     stage.counters_mut().cutbacks += 1;
-                    length = 0.5 * this;
+                    length = shorter;
                 }
                 Err(e) if can_shorten && e.is_recoverable() => {
                     stage.roll_back();
                     stage.counters_mut().cutbacks += 1;
-                    length = 0.5 * this;
+                    length = shorter;
                 }
                 Ok(attempt) => {
                     stage.roll_back();
@@ -227,7 +238,7 @@ impl StepControl {
         let negative_pivots = stage.stability(&displacement, lambda)?;
         let load = stage.load();
         let work_conjugate_load = stage.work_conjugate_load(&displacement, lambda);
-        stage.commit(displacement, lambda);
+        stage.commit(displacement, lambda, held);
         let view = StepView {
             step,
             lambda,
@@ -284,6 +295,7 @@ mod tests {
                     ..good
                 },
             ),
+            ("cut of a failed step", StepControl { cut: 1.0, ..good }),
             (
                 "end",
                 StepControl {

@@ -116,7 +116,7 @@ impl Descent {
     /// One step; returns its factor.
     fn step(&mut self, stage: &mut Stage<'_>) -> Result<f64, SolverError> {
         let mut du = self.residual.clone();
-        stage.solve(&mut du)?;
+        stage.precondition(&mut du)?;
         self.age += 1;
         let slope = dot(&self.residual, &du);
         let force = EvaluationContext::new(Operator::None);

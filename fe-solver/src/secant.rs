@@ -1,4 +1,4 @@
-//! Secant operator, extrapolated predictor, Anderson acceleration, snaps by secant descent.
+//! Modified secant iteration, extrapolated predictor, Anderson acceleration, snaps by secant descent.
 
 use fe_core::element::EvaluationContext;
 use fe_core::material::Operator;
@@ -25,9 +25,9 @@ pub struct SecantSettings {
 impl Default for SecantSettings {
     fn default() -> Self {
         Self {
-            max_iterations: 60,
+            max_iterations: 30,
             depth: 10,
-            rebuild_after: 30,
+            rebuild_after: 20,
             descent: DescentSettings::default(),
         }
     }
@@ -35,9 +35,10 @@ impl Default for SecantSettings {
 
 /// Modified secant iteration with Anderson acceleration.
 ///
-/// The positive-definite secant operator of the laws at an extrapolated displacement gives a
-/// predictor, is rebuilt there once, and serves the iterations of the step: one force evaluation and
-/// one back-substitution each, no tangent, no line search. New cracks are latched until the step ends.
+/// From the extrapolated displacement one factor serves the iterations of the step, one force evaluation and one
+/// back-substitution each, no line search: that of the tangent at the accepted state, left by the count of its
+/// negative pivots, where it is positive definite; elsewhere, and where that is slow, that of the positive-definite
+/// secant operator of the laws. New cracks are latched until the step ends.
 ///
 /// Where no equilibrium lies near (a crack snaps, a sheet comes off), the load factor is held and a
 /// [descent](crate::descent) leads to the next one.
@@ -72,7 +73,8 @@ impl SecantAnderson {
         Self { settings }
     }
 
-    /// Iterates from `free` at load factor `lambda`; the operator is built at the first iterate.
+    /// Iterates from `free` at load factor `lambda`. The first factor is that of the tangent at the accepted state
+    /// if the stage holds it and it is positive definite, otherwise the secant operator at the first iterate.
     fn solve(
         &self,
         stage: &mut Stage<'_>,
@@ -87,7 +89,10 @@ impl SecantAnderson {
         let mut best: Option<(f64, Vec<f64>)> = None;
         let mut iterations = 0_usize;
         loop {
-            let rebuild = iterations.is_multiple_of(self.settings.rebuild_after);
+            let rebuild = match iterations {
+                0 => !stage.holds_stable_tangent(),
+                n => n.is_multiple_of(self.settings.rebuild_after),
+            };
             let u = stage.compose(&free, lambda);
             let mut r = stage.residual(&u, lambda, if rebuild { &operator } else { &force })?;
             stage.latch();
@@ -115,38 +120,37 @@ impl SecantAnderson {
                 stage.factorise()?;
                 anderson.reset();
             }
-            stage.solve(&mut r)?;
+            stage.precondition(&mut r)?;
             let increment = anderson.increment(&free, &r);
             free.iter_mut().zip(&increment).for_each(|(u, d)| *u += d);
             iterations += 1;
         }
     }
 
-    /// First iterate: one linear solve with the secant operator at the extrapolated displacement.
+    /// First iterate: the accepted displacement extrapolated along its last increment, or, without one, a linear
+    /// solve from it.
     fn predict(stage: &mut Stage<'_>, step: f64) -> Result<Vec<f64>, SolverError> {
-        let lambda = stage.lambda() + step;
-        let operator = EvaluationContext::new(Operator::Secant);
-        let accepted = stage.displacement().to_vec();
-        let at = match stage.previous() {
-            Some((du, dl)) => accepted
+        let accepted = stage.displacement();
+        if let Some((du, dl)) = stage.previous() {
+            let ratio = step / dl;
+            let at: Vec<f64> = accepted
                 .iter()
                 .zip(du)
-                .map(|(u, d)| u + step / dl * d)
-                .collect(),
-            None => accepted.clone(),
-        };
-        stage.residual(&at, lambda, &operator)?;
+                .map(|(u, d)| u + ratio * d)
+                .collect();
+            return Ok(stage.restrict(&at));
+        }
+        let accepted = accepted.to_vec();
+        let operator = EvaluationContext::new(Operator::Secant);
+        stage.residual(&accepted, stage.lambda() + step, &operator)?;
         stage.factorise()?;
-        let mut predictor = stage.reference_load();
-        for q in &mut predictor {
+        let mut increment = stage.reference_load();
+        for q in &mut increment {
             *q *= step;
         }
-        for (q, r) in predictor.iter_mut().zip(stage.accepted_residual()) {
-            *q += r;
-        }
-        stage.solve(&mut predictor)?;
+        stage.solve(&mut increment)?;
         let mut free = stage.restrict(&accepted);
-        free.iter_mut().zip(&predictor).for_each(|(u, d)| *u += d);
+        free.iter_mut().zip(&increment).for_each(|(u, d)| *u += d);
         Ok(free)
     }
 

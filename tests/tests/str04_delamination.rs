@@ -20,6 +20,8 @@ use fe_core::model::{Conditions, Model};
 use fe_elements::HexRule;
 use fe_materials::Elastic;
 use fe_solver::control::StepControl;
+use fe_solver::driver::Driver;
+use fe_solver::newton::{NewtonRaphson, NewtonSettings};
 use fe_solver::recorder::StepView;
 use fe_solver::secant::SecantAnderson;
 use fe_tests::conditions::hold;
@@ -112,16 +114,20 @@ fn graded(from: f64, to: f64, end: f64) -> Vec<f64> {
 }
 
 /// Displacement (mm) and load (N) of every step.
-fn drive(model: &Model, conditions: Conditions, step: f64, end: f64) -> Vec<[f64; 2]> {
+fn drive(
+    model: &Model,
+    conditions: Conditions,
+    driver: &mut dyn Driver,
+    [step, end]: [f64; 2],
+) -> Vec<[f64; 2]> {
     let control = StepControl {
         criterion: 1e-4,
         shortest: step / 1024.0,
         ..StepControl::new(step, end)
     };
     let mut path = Vec::new();
-    let mut driver = SecantAnderson::default();
     let record = |view: &StepView<'_>| path.push([view.lambda, view.load]);
-    run(model, conditions, &control, &mut driver, |_| {}, record).unwrap();
+    run(model, conditions, &control, driver, |_| {}, record).unwrap();
     path
 }
 
@@ -197,7 +203,12 @@ fn double_cantilever_beam() {
             conditions.prescribe(&model, node, Dof::Uz, share).unwrap();
         }
     }
-    let path = drive(&model, conditions, 0.1, 2.9);
+    let path = drive(
+        &model,
+        conditions,
+        &mut SecantAnderson::default(),
+        [0.1, 2.9],
+    );
     compare(&path, [2.25, 2.9], 6, |w| beam_theory(w, 30.0, 50.0, dcb));
 }
 
@@ -223,6 +234,9 @@ fn end_notched_flexure() {
     for node in nodes_where(model.mesh(), |x| x[0] == HALF_SPAN && x[2] == H) {
         conditions.prescribe(&model, node, Dof::Uz, -1.0).unwrap();
     }
-    let path = drive(&model, conditions, 0.05, 1.63);
+    // Near the snap-back the crack passes weak instabilities, one an element, which the accelerated iteration
+    // follows until it falls below the curve; Newton-Raphson stays on it.
+    let mut driver = NewtonRaphson::new(NewtonSettings::default());
+    let path = drive(&model, conditions, &mut driver, [0.05, 1.63]);
     compare(&path, [1.55, 1.63], 3, |w| beam_theory(w, 34.67, 60.0, enf));
 }

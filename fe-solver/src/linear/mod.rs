@@ -41,7 +41,7 @@ pub struct LinearStats {
     pub indefinite: usize,
     /// Factorisations L U.
     pub general: usize,
-    /// Solutions.
+    /// Applications of a factor, refinements included.
     pub solves: usize,
     /// Solutions that were refined.
     pub refinements: usize,
@@ -71,6 +71,14 @@ pub trait LinearSolver {
     ///
     /// [`LinearError::NotFactorized`] before a factorisation.
     fn solve_in_place(&mut self, rhs: &mut [f64]) -> Result<(), LinearError>;
+
+    /// Applies the inverse of the last factor once, in place, unchecked: for iterations whose operator is only near
+    /// the tangent, and which measure their residual anyway.
+    ///
+    /// # Errors
+    ///
+    /// [`LinearError::NotFactorized`] before a factorisation.
+    fn precondition(&mut self, rhs: &mut [f64]) -> Result<(), LinearError>;
 
     /// What has been done.
     fn stats(&self) -> &LinearStats;
@@ -161,39 +169,38 @@ impl LinearSolver for DirectSolver {
     }
 
     fn solve_in_place(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
-        let Some(pattern) = &self.pattern else {
-            return Err(LinearError::NotAnalysed);
-        };
-        let [right, residual] = &mut self.scratch;
+        let [mut right, mut residual] = std::mem::take(&mut self.scratch);
         right.clear();
         right.extend_from_slice(rhs);
         residual.resize(rhs.len(), 0.0);
-        let mut back = |x: &mut [f64]| match (self.current, &mut self.symmetric, &mut self.general)
-        {
-            (Current::Symmetric, Some(factor), _) => {
-                factor.solve(x);
-                Ok(())
-            }
-            (Current::General, _, Some(factor)) => {
-                factor.solve(x);
-                Ok(())
-            }
-            _ => Err(LinearError::NotFactorized),
+        self.precondition(rhs)?;
+        let Some(pattern) = &self.pattern else {
+            return Err(LinearError::NotAnalysed);
         };
-        back(rhs)?;
-        self.stats.solves += 1;
-        self.values.multiply(pattern, rhs, residual);
+        self.values.multiply(pattern, rhs, &mut residual);
         for (r, b) in residual.iter_mut().zip(right.iter()) {
             *r = b - *r;
         }
-        self.stats.last_residual = norm(residual) / norm(right).max(f64::MIN_POSITIVE);
+        self.stats.last_residual = norm(&residual) / norm(&right).max(f64::MIN_POSITIVE);
         if self.stats.last_residual > REFINE_ABOVE {
-            back(residual)?;
+            self.precondition(&mut residual)?;
             for (x, d) in rhs.iter_mut().zip(residual.iter()) {
                 *x += d;
             }
             self.stats.refinements += 1;
         }
+        self.scratch = [right, residual];
+        Ok(())
+    }
+
+    fn precondition(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
+        match (self.current, &mut self.symmetric, &mut self.general) {
+            (Current::Symmetric, Some(factor), _) => factor.solve(rhs),
+            (Current::General, _, Some(factor)) => factor.solve(rhs),
+            (_, None, _) => return Err(LinearError::NotAnalysed),
+            _ => return Err(LinearError::NotFactorized),
+        }
+        self.stats.solves += 1;
         Ok(())
     }
 

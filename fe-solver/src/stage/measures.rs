@@ -80,7 +80,7 @@ impl Stage<'_> {
     /// an equilibrium that is stable under the constraints of the stage (positive second-order work, Hill
     /// 1958). A tangent that is singular counts as one.
     ///
-    /// The trial state is that of `u`; the factor replaces that of the driver.
+    /// The trial state is that of `u`, which is to be accepted; the factor replaces that of the driver.
     ///
     /// # Errors
     ///
@@ -104,6 +104,7 @@ impl Stage<'_> {
             Err(e) => return Err(e),
         }
         self.unstable = self.counters.negative_pivots > 0;
+        self.stable_tangent = !self.unstable;
         Ok(self.counters.negative_pivots)
     }
 }

@@ -54,6 +54,8 @@ pub struct Stage<'m> {
     linear: DirectSolver,
     /// Whether the last tangent looked at for its stability was indefinite.
     unstable: bool,
+    /// Whether the factor is that of a positive-definite tangent at the accepted state.
+    stable_tangent: bool,
     state: &'m mut StateStore,
     assembled: Assembled,
     external: Vec<f64>,
@@ -61,7 +63,6 @@ pub struct Stage<'m> {
     displacement: Vec<f64>,
     lambda: f64,
     previous: Option<(Vec<f64>, f64)>,
-    accepted_residual: Vec<f64>,
     counters: Counters,
     times: PhaseTimes,
 }
@@ -92,11 +93,11 @@ impl<'m> Stage<'m> {
             assembler,
             linear,
             unstable: false,
+            stable_tangent: false,
             state,
             assembled: Assembled::default(),
             lambda: 0.0,
             previous: None,
-            accepted_residual: Vec::new(),
             counters: Counters::default(),
             times: PhaseTimes::default(),
         })
@@ -127,15 +128,10 @@ impl<'m> Stage<'m> {
         self.lambda
     }
 
-    /// Last accepted increment of displacement (all DOFs) and load factor.
+    /// Last accepted increment of displacement (all DOFs) and load factor; none before the first step and after a
+    /// snap.
     pub fn previous(&self) -> Option<(&[f64], f64)> {
         self.previous.as_ref().map(|(du, dl)| (du.as_slice(), *dl))
-    }
-
-    /// Residual f_ext - f_int of the free equations at the accepted state (N); empty before the first
-    /// step has been accepted.
-    pub fn accepted_residual(&self) -> &[f64] {
-        &self.accepted_residual
     }
 
     /// Accepted states.
@@ -214,6 +210,12 @@ impl<'m> Stage<'m> {
         free.map(|&d| f[d as usize] - q[d as usize])
     }
 
+    /// Whether the present factor is that of the consistent tangent (its symmetric part) at the accepted
+    /// state, found positive definite by [`Self::stability`].
+    pub const fn holds_stable_tangent(&self) -> bool {
+        self.stable_tangent
+    }
+
     /// Factorises the matrix of the last evaluation that asked for an operator.
     ///
     /// # Errors
@@ -222,6 +224,7 @@ impl<'m> Stage<'m> {
     pub fn factorise(&mut self) -> Result<(), SolverError> {
         let begin = Instant::now();
         self.counters.factorisations += 1;
+        self.stable_tangent = false;
         let result = self.linear.factorize(&self.assembled.matrix);
         self.times.factorise += begin.elapsed();
         self.counters.negative_pivots = result.map_err(|e| self.place(e))?.negative;
@@ -236,6 +239,18 @@ impl<'m> Stage<'m> {
     pub fn solve(&mut self, rhs: &mut [f64]) -> Result<(), SolverError> {
         let begin = Instant::now();
         let result = self.linear.solve_in_place(rhs);
+        self.times.solve += begin.elapsed();
+        result.map_err(|e| self.place(e))
+    }
+
+    /// Applies the inverse of the last factor once, in place and unchecked, see [`LinearSolver::precondition`].
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError::Linear`].
+    pub fn precondition(&mut self, rhs: &mut [f64]) -> Result<(), SolverError> {
+        let begin = Instant::now();
+        let result = self.linear.precondition(rhs);
         self.times.solve += begin.elapsed();
         result.map_err(|e| self.place(e))
     }
@@ -264,17 +279,17 @@ impl<'m> Stage<'m> {
         self.state.roll_back();
     }
 
-    /// Accepts displacement, load factor and the trial state of the last evaluation.
-    pub fn commit(&mut self, u: Vec<f64>, lambda: f64) {
+    /// Accepts displacement, load factor and the trial state of the last evaluation. The increment of a `held` step,
+    /// which passed a snap, says nothing about the next one and is forgotten.
+    pub fn commit(&mut self, u: Vec<f64>, lambda: f64, held: bool) {
         let du = u
             .iter()
             .zip(&self.displacement)
             .map(|(a, b)| a - b)
             .collect();
-        self.previous = Some((du, lambda - self.lambda));
+        self.previous = (!held).then_some((du, lambda - self.lambda));
         self.displacement = u;
         self.lambda = lambda;
-        self.accepted_residual = self.unbalanced().collect();
         self.state.commit();
         self.counters.steps += 1;
     }

@@ -43,6 +43,8 @@ const SHORTEST: f64 = 16.0;
 const EASY: usize = 20;
 /// How much longer.
 const GROWTH: f64 = 1.5;
+/// Share of a failed step at which it is tried again.
+const CUT: f64 = 0.25;
 
 impl Stepping {
     fn control(&self) -> StepControl {
@@ -53,6 +55,7 @@ impl Stepping {
             criterion: self.criterion,
             easy: EASY,
             growth: GROWTH,
+            cut: CUT,
             on_failure: OnFailure::Flag,
             ..StepControl::new(self.initial_mm, self.until_mm)
         }
