@@ -37,7 +37,7 @@ impl Default for DescentSettings {
     fn default() -> Self {
         Self {
             max_iterations: 3000,
-            rebuild_after: 5,
+            rebuild_after: 10,
             overshoot: 0.3,
             least_factor: 0.05,
         }

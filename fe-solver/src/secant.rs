@@ -4,6 +4,7 @@ use fe_core::element::EvaluationContext;
 use fe_core::material::Operator;
 
 use crate::anderson::Anderson;
+use crate::capacity::DROP_FALL;
 use crate::descent::{Descent, DescentSettings};
 use crate::driver::{Attempt, Driver, IterationLog};
 use crate::error::SolverError;
@@ -18,6 +19,8 @@ pub struct SecantSettings {
     pub depth: usize,
     /// Iterations after which the operator is rebuilt at the current iterate; 0 keeps the first.
     pub rebuild_after: usize,
+    /// Iterations spent on a snap before the step is cut.
+    pub small_snap: usize,
     /// Descent over snaps.
     pub descent: DescentSettings,
 }
@@ -28,6 +31,7 @@ impl Default for SecantSettings {
             max_iterations: 30,
             depth: 10,
             rebuild_after: 20,
+            small_snap: 150,
             descent: DescentSettings::default(),
         }
     }
@@ -41,7 +45,8 @@ impl Default for SecantSettings {
 /// secant operator of the laws. New cracks are latched until the step ends.
 ///
 /// Where no equilibrium lies near (a crack snaps, a sheet comes off), the load factor is held and a
-/// [descent](crate::descent) leads to the next one.
+/// [descent](crate::descent) leads to the next one: at once where the residual says that little moves and little load
+/// is lost (no step is short enough to avoid the snap of a single point), else when steps cannot be cut any further.
 #[derive(Debug, Clone, Default)]
 pub struct SecantAnderson {
     settings: SecantSettings,
@@ -62,7 +67,7 @@ struct Snap {
     iterations: usize,
 }
 
-/// Relative residual below which a descent gives over to the accelerated iteration.
+/// Relative residual below which a snap counts as small, and a descent gives over to the accelerated iteration.
 const NEAR: f64 = 1e-2;
 /// Iterations of a descent before that, and from one such attempt to the next.
 const LEG: usize = 30;
@@ -154,13 +159,14 @@ impl SecantAnderson {
         Ok(free)
     }
 
-    /// From the accepted displacement to the next equilibrium at a held load factor: a descent that the
-    /// accelerated iteration ends once it is near.
+    /// From the accepted displacement to the next equilibrium at a held load factor within `limit` iterations: a
+    /// descent that the accelerated iteration ends once it is near.
     fn pass_snap(
         &self,
         stage: &mut Stage<'_>,
         lambda: f64,
         criterion: f64,
+        limit: usize,
         log: &mut IterationLog<'_>,
     ) -> Result<Snap, SolverError> {
         let free = stage.restrict(stage.displacement());
@@ -170,7 +176,7 @@ impl SecantAnderson {
         loop {
             let residual = descent.run(stage, criterion, LEG, log)?;
             let iterations = spent + descent.iterations;
-            let over = iterations >= settings.max_iterations || !residual.relative.is_finite();
+            let over = iterations >= limit || !residual.relative.is_finite();
             if residual.relative <= criterion || over {
                 return Ok(Snap {
                     free: descent.free,
@@ -223,10 +229,16 @@ impl Driver for SecantAnderson {
             Some(residual) => residual,
             None => Self::check(stage, &solve.free, lambda)?,
         };
-        let held = residual.relative > criterion && last_resort;
+        let limit = if last_resort {
+            usize::MAX
+        } else {
+            self.settings.small_snap
+        };
+        let held = residual.relative > criterion && (last_resort || residual.relative < NEAR);
         if held {
             let nearest = (residual.relative, solve.free);
-            let snap = self.pass_snap(stage, lambda, criterion, log)?;
+            let limit = limit.min(self.settings.descent.max_iterations);
+            let snap = self.pass_snap(stage, lambda, criterion, limit, log)?;
             (solve.free, residual) = (snap.free, snap.residual);
             iterations += snap.iterations;
             if residual.relative > criterion && nearest.0 < residual.relative {
@@ -235,10 +247,13 @@ impl Driver for SecantAnderson {
                 residual = Self::check(stage, &solve.free, lambda)?;
             }
         }
+        // A snap that loses load is placed by shorter steps before it is passed.
+        let loss = 1.0 - stage.load() / stage.accepted_load();
+        let placed = !held || last_resort || loss < DROP_FALL;
         Ok(Attempt {
             displacement: stage.compose(&solve.free, lambda),
             lambda,
-            converged: residual.relative <= criterion,
+            converged: residual.relative <= criterion && placed,
             residual,
             iterations,
             held,

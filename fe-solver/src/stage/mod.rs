@@ -63,6 +63,7 @@ pub struct Stage<'m> {
     displacement: Vec<f64>,
     lambda: f64,
     previous: Option<(Vec<f64>, f64)>,
+    accepted_load: f64,
     counters: Counters,
     times: PhaseTimes,
 }
@@ -98,6 +99,7 @@ impl<'m> Stage<'m> {
             assembled: Assembled::default(),
             lambda: 0.0,
             previous: None,
+            accepted_load: 0.0,
             counters: Counters::default(),
             times: PhaseTimes::default(),
         })
@@ -132,6 +134,11 @@ impl<'m> Stage<'m> {
     /// snap.
     pub fn previous(&self) -> Option<(&[f64], f64)> {
         self.previous.as_ref().map(|(du, dl)| (du.as_slice(), *dl))
+    }
+
+    /// [`Self::load`] of the accepted state; 0 before the first step.
+    pub const fn accepted_load(&self) -> f64 {
+        self.accepted_load
     }
 
     /// Accepted states.
@@ -290,6 +297,7 @@ impl<'m> Stage<'m> {
         self.previous = (!held).then_some((du, lambda - self.lambda));
         self.displacement = u;
         self.lambda = lambda;
+        self.accepted_load = self.load();
         self.state.commit();
         self.counters.steps += 1;
     }
