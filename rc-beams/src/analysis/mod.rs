@@ -36,7 +36,7 @@ pub struct Stepping {
 /// Longest step over the first one.
 const LONGEST: f64 = 2.0;
 /// Share of the deflection reached that a step may take where this is longer.
-const LONGEST_SHARE: f64 = 0.01;
+const LONGEST_SHARE: f64 = 0.02;
 /// First step over the shortest one.
 const SHORTEST: f64 = 16.0;
 /// Steps with fewer iterations are followed by longer ones.
