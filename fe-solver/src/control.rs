@@ -215,6 +215,9 @@ impl StepControl {
             },
         );
         stage.counters_mut().iterations += iteration;
+        for note in driver.notes() {
+            recorder.note(plan.step, &note)?;
+        }
         result
     }
 

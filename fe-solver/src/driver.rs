@@ -46,4 +46,9 @@ pub trait Driver: Debug {
         last_resort: bool,
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError>;
+
+    /// What the driver has decided since it was last asked, with the reasons.
+    fn notes(&mut self) -> Vec<String> {
+        Vec::new()
+    }
 }

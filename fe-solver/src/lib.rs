@@ -1,11 +1,12 @@
 //! Nonlinear drivers behind one step control, on sparse direct solvers.
 //!
 //! The crate knows systems of equations and steps, never concrete or steel. A [`stage::Stage`] holds a model
-//! under given conditions; a [`driver::Driver`] ([`newton::NewtonRaphson`], [`secant::SecantAnderson`])
+//! under given conditions; a [`driver::Driver`] ([`newton::NewtonRaphson`], [`automatic::Automatic`], [`secant::SecantAnderson`])
 //! brings one step to equilibrium; [`control::StepControl`] chooses step lengths, accepts or repeats, and
 //! tells a [`recorder::Recorder`].
 
 pub mod anderson;
+pub mod automatic;
 pub mod capacity;
 pub mod control;
 pub mod descent;

@@ -90,7 +90,7 @@ impl Driver for NewtonRaphson {
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
         let s = self.settings;
-        self.constraint.begin(length);
+        self.constraint.begin(stage, length)?;
         let tangent = EvaluationContext::new(s.operator);
         let force = EvaluationContext::new(Operator::None);
         let start = stage.restrict(stage.displacement());
@@ -98,6 +98,15 @@ impl Driver for NewtonRaphson {
         let mut lambda = stage.lambda();
         let mut gradient = vec![0.0; start.len()];
         let mut u = stage.displacement().to_vec();
+        if let Some((last, dlambda)) = stage.previous() {
+            let last = stage.restrict(last);
+            if let Some(share) = self.constraint.extrapolate(&last, dlambda) {
+                du = last.iter().map(|d| share * d).collect();
+                lambda += share * dlambda;
+                let free: Vec<f64> = start.iter().zip(&du).map(|(u, d)| u + d).collect();
+                u = stage.compose(&free, lambda);
+            }
+        }
         let mut residual = stage.residual(&u, lambda, &tangent)?;
         stage.factorise()?;
         let mut reference = stage.reference_load();

@@ -70,6 +70,15 @@ pub trait Recorder {
         Ok(())
     }
 
+    /// The driver has decided something about a step, which is given with the reason.
+    ///
+    /// # Errors
+    ///
+    /// An output error ends the analysis.
+    fn note(&mut self, _step: usize, _text: &str) -> std::io::Result<()> {
+        Ok(())
+    }
+
     /// One step was accepted.
     ///
     /// # Errors

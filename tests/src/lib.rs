@@ -11,6 +11,7 @@ pub mod figure;
 pub mod laws;
 pub mod mesh;
 pub mod shell;
+pub mod softening_bar;
 pub mod solve;
 pub mod stress;
 pub mod strip;

@@ -4,68 +4,19 @@
 //! d sigma/d u = 1/(L/E - wc/ft), which is -37.9, -61.0, +3630, +29.8 MPa/mm for L = 200, 500, 1000, 2000 mm: beyond
 //! L = 2 E GF/ft^2 = 991.7 mm the end moves back.
 
-use std::sync::Arc;
-
 use fe_core::dof::Dof;
-use fe_core::element::Element;
-use fe_core::kinematics::Solid;
-use fe_core::material::Material;
-use fe_core::model::{Conditions, Model};
-use fe_elements::{BandWidth, Hex20, HexRule};
-use fe_materials::Elastic;
-use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 use fe_solver::control::StepControl;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings};
 use fe_solver::path::FreeDisplacement;
-use fe_tests::conditions::{hold, push_faces};
-use fe_tests::mesh::{boxes, cells, lines, nodes_where};
+use fe_tests::mesh::nodes_where;
+use fe_tests::softening_bar::{ENERGY, OPENING, STRENGTH, YOUNG, bar};
 use fe_tests::solve::run;
-use nalgebra::Vector3;
-
-const YOUNG: f64 = 30_000.0;
-const STRENGTH: f64 = 2.2;
-const ENERGY: f64 = 0.08;
-const OPENING: f64 = 2.0 * ENERGY / STRENGTH;
-
-/// Concrete without lateral contraction.
-fn concrete() -> FixedCrack {
-    let parameters = FixedCrackParameters {
-        poisson: 0.0,
-        fracture_energy: ENERGY,
-        ..FixedCrackParameters::from_strength(30.0, STRENGTH, YOUNG)
-    };
-    FixedCrack::new(parameters, None).unwrap()
-}
 
 /// Stress and displacement of the end along the path of a bar of `n` cells, the first of which cracks; driven by the
 /// displacement beside the crack band, which grows until the band is open.
 fn path(length: f64, n: usize) -> Vec<[f64; 2]> {
-    let mesh = boxes(&lines(0.0, length, n), &[0.0, 10.0], &[0.0, 10.0]).unwrap();
+    let (model, conditions) = bar(length, n);
     let width = length / n as f64;
-    let mut elements: Vec<Box<dyn Element>> = Vec::new();
-    for (i, (nodes, coords)) in cells(&mesh, &mesh.blocks()[0]).enumerate() {
-        let law: Arc<dyn Material<Solid>> = if i == 0 {
-            Arc::new(concrete())
-        } else {
-            Arc::new(Elastic::new(YOUNG, 0.0).unwrap())
-        };
-        let band = BandWidth::Fixed(width);
-        elements.push(Box::new(
-            Hex20::new(nodes, &coords, HexRule::Full, law, band).unwrap(),
-        ));
-    }
-    let model = Model::new(mesh, elements);
-    let mut conditions = Conditions::new(&model);
-    hold(&model, &mut conditions, &[Dof::Uy, Dof::Uz], |_| true).unwrap();
-    hold(&model, &mut conditions, &[Dof::Ux], |x| x[0] == 0.0).unwrap();
-    push_faces(
-        &model,
-        &mut conditions,
-        |x| x[0] == length,
-        |_| Vector3::x(),
-    )
-    .unwrap();
-
     let at = |place: f64| {
         let node = nodes_where(model.mesh(), |x| (x[0] - place).abs() < 1e-9)[0];
         model.dof(node, Dof::Ux).unwrap()
@@ -83,15 +34,7 @@ fn path(length: f64, n: usize) -> Vec<[f64; 2]> {
     let record = |view: &fe_solver::recorder::StepView<'_>| {
         path.push([view.lambda, view.stage.displacement()[end]]);
     };
-    run(
-        &model,
-        conditions.clone(),
-        &control,
-        &mut newton,
-        |_| {},
-        record,
-    )
-    .unwrap();
+    run(&model, conditions, &control, &mut newton, |_| {}, record).unwrap();
     path
 }
 

@@ -1,0 +1,227 @@
+//! Path control chosen by the state of the path.
+
+use crate::anderson::dot;
+use crate::driver::{Attempt, Driver, IterationLog};
+use crate::error::SolverError;
+use crate::newton::{NewtonRaphson, NewtonSettings};
+use crate::path::{Dissipation, Energies, LoadedDisplacement, Mode};
+use crate::stage::{Residual, Stage};
+
+/// A step that dissipates more than this share of the work done on it calls for dissipation control.
+const DISSIPATIVE: f64 = 0.05;
+/// A step whose load falls and that dissipates less than this share of its work unloads elastically.
+const ELASTIC: f64 = 1e-3;
+/// Share of its length that a step takes under control of a mode, so that the peak is not stepped over.
+const ONSET: f64 = 1.0 / 16.0;
+/// Bounds of the factor by which the dissipation of a step changes from one to the next.
+const PACE: (f64, f64) = (0.7, 1.3);
+
+/// What is controlled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Control {
+    Displacement,
+    Dissipation,
+    Mode,
+}
+
+/// Newton-Raphson under forces, for paths through limit points and snaps back that nobody has to announce.
+///
+/// While a path is elastic the [loaded displacement](LoadedDisplacement) grows by the length of the step (mm). Once
+/// a step has dissipated more than a twentieth of its work, steps are made to [dissipate](Dissipation) as much again
+/// (switching on the energy: Verhoosel, Remmers and Gutierrez 2009, section 4); how much is adapted until the largest
+/// displacement of a step is its length. Where a step fails before anything has been dissipated (an elastic body
+/// cracks and snaps back) the difference between the failed iterate and the extrapolated path is the
+/// [mode](Mode) that wants to grow, and its amplitude is controlled. Where one control fails the others are tried before the
+/// step is cut.
+///
+/// A step that unloads elastically was not asked for and is refused, however well it converged. Every change is
+/// noted with its reason.
+#[derive(Debug)]
+pub struct Automatic {
+    settings: NewtonSettings,
+    displacement: NewtonRaphson,
+    dissipation: NewtonRaphson,
+    mode: Option<NewtonRaphson>,
+    control: Control,
+    /// Length (mm) of the last attempt that converged.
+    length: f64,
+    /// Energy that a step dissipates per mm of its length (N); 0 before the first that does.
+    rate: f64,
+    /// Load factor of the last accepted step that was looked at.
+    seen: Option<f64>,
+    notes: Vec<String>,
+}
+
+impl Automatic {
+    /// A driver with the given settings of Newton-Raphson.
+    pub fn new(settings: NewtonSettings) -> Self {
+        let with = |constraint| NewtonRaphson::with_constraint(settings, constraint);
+        Self {
+            settings,
+            displacement: with(Box::<LoadedDisplacement>::default()),
+            dissipation: with(Box::<Dissipation>::default()),
+            mode: None,
+            control: Control::Displacement,
+            length: 0.0,
+            rate: 0.0,
+            seen: None,
+            notes: Vec::new(),
+        }
+    }
+
+    fn switch(&mut self, to: Control, reason: &str) {
+        if self.control != to {
+            self.control = to;
+            let name = match to {
+                Control::Displacement => "displacement control",
+                Control::Dissipation => "dissipation control",
+                Control::Mode => "control of the failing mode",
+            };
+            self.notes.push(format!("{name}: {reason}"));
+        }
+    }
+
+    /// Looks at the last accepted step, once.
+    fn look_back(&mut self, stage: &Stage<'_>) -> Result<(), SolverError> {
+        if self.seen.replace(stage.lambda()) == Some(stage.lambda()) {
+            return Ok(());
+        }
+        let (Some(last), Some((du, _))) = (Energies::of(stage, None)?, stage.previous()) else {
+            return Ok(());
+        };
+        if self.control == Control::Dissipation {
+            let largest = du.iter().fold(0.0_f64, |a, d| a.max(d.abs()));
+            self.rate *= (self.length / largest).clamp(PACE.0, PACE.1);
+            return Ok(());
+        }
+        let share = last.dissipated / last.work.abs();
+        if share > DISSIPATIVE {
+            self.rate = last.dissipated / self.length;
+            let reason = format!(
+                "the last step dissipated {:.0} % of its work",
+                100.0 * share
+            );
+            self.switch(Control::Dissipation, &reason);
+        }
+        Ok(())
+    }
+
+    fn run(
+        &mut self,
+        stage: &mut Stage<'_>,
+        length: f64,
+        criterion: f64,
+        last_resort: bool,
+        log: &mut IterationLog<'_>,
+    ) -> Result<Attempt, SolverError> {
+        let (driver, length) = match (self.control, &mut self.mode) {
+            (Control::Dissipation, _) => (&mut self.dissipation, self.rate * length),
+            (Control::Mode, Some(mode)) => (mode, ONSET * length),
+            _ => (&mut self.displacement, length),
+        };
+        let mut attempt = match driver.attempt(stage, length, criterion, last_resort, log) {
+            Ok(attempt) => attempt,
+            // More was asked for than there is left: what has failed is loose.
+            Err(SolverError::Singular { .. }) if !last_resort => Attempt {
+                displacement: stage.displacement().to_vec(),
+                lambda: stage.lambda(),
+                converged: false,
+                residual: Residual {
+                    relative: f64::INFINITY,
+                    largest: f64::INFINITY,
+                    worst: 0,
+                },
+                iterations: 0,
+                held: false,
+            },
+            Err(e) => return Err(e),
+        };
+        let to = Some((attempt.displacement.as_slice(), attempt.lambda));
+        if let Some(energies) = Energies::of(stage, to)? {
+            let falls = attempt.lambda.abs() < stage.lambda().abs();
+            attempt.converged &= !(falls && energies.dissipated < ELASTIC * energies.work.abs());
+        }
+        Ok(attempt)
+    }
+
+    /// The mode in which an attempt failed: what its iterate has beyond the last increment, scaled to the same
+    /// displacement under the forces.
+    fn failing_mode(stage: &Stage<'_>, failed: &Attempt) -> Option<Vec<f64>> {
+        let (last, _) = stage.previous()?;
+        let forces = stage.conditions().reference();
+        let du = failed.displacement.iter().zip(stage.displacement());
+        let du: Vec<f64> = du.map(|(a, b)| a - b).collect();
+        let share = dot(forces, &du) / dot(forces, last);
+        let mode: Vec<f64> = du.iter().zip(last).map(|(d, l)| d - share * l).collect();
+        Some(stage.restrict(&mode))
+    }
+
+    /// Other controls to try after one has failed. Which way the mode grows is not known: a snap-back is met from
+    /// behind. The wrong way unloads, and is refused.
+    fn others(
+        &self,
+        stage: &Stage<'_>,
+        failed: Option<&Attempt>,
+    ) -> Vec<(Control, Option<NewtonRaphson>)> {
+        let mut others = Vec::new();
+        if self.rate > 0.0 {
+            others.push((Control::Dissipation, None));
+        }
+        others.push((Control::Displacement, None));
+        others.retain(|(c, _)| *c != self.control);
+        if let Some(mode) = failed.and_then(|f| Self::failing_mode(stage, f)) {
+            for sign in [1.0, -1.0] {
+                let mode = Mode::new(mode.iter().map(|m| sign * m).collect());
+                let driver = |m| NewtonRaphson::with_constraint(self.settings, Box::new(m));
+                others.extend(mode.map(|m| (Control::Mode, Some(driver(m)))));
+            }
+        }
+        others
+    }
+}
+
+impl Driver for Automatic {
+    fn name(&self) -> &'static str {
+        "automatic path control"
+    }
+
+    fn attempt(
+        &mut self,
+        stage: &mut Stage<'_>,
+        length: f64,
+        criterion: f64,
+        last_resort: bool,
+        log: &mut IterationLog<'_>,
+    ) -> Result<Attempt, SolverError> {
+        self.look_back(stage)?;
+        let usual = self.control;
+        let mut result = self.run(stage, length, criterion, last_resort, log);
+        let mut serves = result.as_ref().is_ok_and(|a| a.converged);
+        let recoverable = match &result {
+            Ok(_) => true,
+            Err(e) => e.is_recoverable(),
+        };
+        if !serves && recoverable {
+            for (other, mode) in self.others(stage, result.as_ref().ok()) {
+                stage.roll_back();
+                self.control = other;
+                self.mode = mode.or(self.mode.take());
+                let again = self.run(stage, length, criterion, last_resort, log);
+                self.control = usual;
+                if again.as_ref().is_ok_and(|a| a.converged) {
+                    self.switch(other, "a step of the same length failed under the other");
+                    (result, serves) = (again, true);
+                    break;
+                }
+            }
+        }
+        if serves {
+            self.length = length;
+        }
+        result
+    }
+
+    fn notes(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.notes)
+    }
+}

@@ -1,0 +1,66 @@
+//! Control of the amplitude of a mode.
+
+use super::{Border, PathConstraint};
+use crate::anderson::dot;
+use crate::error::SolverError;
+use crate::stage::Stage;
+
+/// The amplitude of a mode w of the free displacements grows by the length of the step (mm):
+/// g = w . du/(w . w) - length.
+///
+/// With the mode in which a structure fails, a crack that opens or a front that moves on, this is indirect
+/// displacement control (de Borst 1987) that needs nobody to name the crack.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Mode {
+    weights: Vec<f64>,
+    length: f64,
+}
+
+impl Mode {
+    /// Controls a mode, scaled to a largest displacement of 1; `None` if it does not move, or is not finite.
+    pub fn new(mut mode: Vec<f64>) -> Option<Self> {
+        let largest = mode.iter().fold(0.0_f64, |a, m| a.max(m.abs()));
+        let square = dot(&mode, &mode);
+        if !(largest > 0.0 && square.is_finite()) {
+            return None;
+        }
+        for m in &mut mode {
+            *m *= largest / square;
+        }
+        Some(Self {
+            weights: mode,
+            length: 0.0,
+        })
+    }
+}
+
+impl PathConstraint for Mode {
+    fn begin(&mut self, _stage: &Stage<'_>, length: f64) -> Result<(), SolverError> {
+        self.length = length;
+        Ok(())
+    }
+
+    fn linearise(&self, du: &[f64], _dlambda: f64, gradient: &mut [f64]) -> Border {
+        gradient.copy_from_slice(&self.weights);
+        Border {
+            value: dot(&self.weights, du) - self.length,
+            slope: 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Protects the amplitude: an increment that is a times the mode, scaled to 1, has the amplitude a.
+    use super::*;
+
+    #[test]
+    fn a_multiple_of_the_mode_has_its_amplitude() {
+        let mode = Mode::new(vec![0.0, -4.0, 2.0]).unwrap();
+        let mut gradient = [0.0; 3];
+        let border = mode.linearise(&[5.0, -3.0, 1.5], 0.0, &mut gradient);
+        assert!((border.value - 3.0).abs() < 1e-14, "{border:?}");
+        assert!(Mode::new(vec![0.0; 3]).is_none());
+        assert!(Mode::new(vec![f64::NAN, 1.0]).is_none());
+    }
+}

@@ -1,0 +1,74 @@
+//! Bar in tension with one crack band at its fixed end; the rest is elastic.
+//!
+//! Elastic bar and cohesive crack in series: the peak is ft A, the critical opening wc = 2 GF/ft = 0.07273 mm, the work
+//! GF A. The loaded end moves back where the bar is longer than 2 E GF/ft^2 = 991.7 mm.
+
+use std::sync::Arc;
+
+use fe_core::dof::Dof;
+use fe_core::element::Element;
+use fe_core::kinematics::Solid;
+use fe_core::material::Material;
+use fe_core::model::{Conditions, Model};
+use fe_elements::{BandWidth, Hex20, HexRule};
+use fe_materials::Elastic;
+use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
+use nalgebra::Vector3;
+
+use crate::conditions::{hold, push_faces};
+use crate::mesh::{boxes, cells, lines};
+
+/// Young's modulus E (MPa).
+pub const YOUNG: f64 = 30_000.0;
+/// Tensile strength ft (MPa).
+pub const STRENGTH: f64 = 2.2;
+/// Fracture energy GF (N/mm), of linear softening.
+pub const ENERGY: f64 = 0.08;
+/// Critical opening (mm).
+pub const OPENING: f64 = 2.0 * ENERGY / STRENGTH;
+/// Section (mm2).
+pub const AREA: f64 = 100.0;
+
+/// Concrete without lateral contraction.
+fn concrete() -> FixedCrack {
+    let parameters = FixedCrackParameters {
+        poisson: 0.0,
+        fracture_energy: ENERGY,
+        ..FixedCrackParameters::from_strength(30.0, STRENGTH, YOUNG)
+    };
+    FixedCrack::new(parameters, None).expect("a concrete")
+}
+
+/// A bar of `n` cells, the first of which cracks, pulled by 1 MPa per unit of the load factor.
+///
+/// # Panics
+///
+/// For a length that is not positive.
+pub fn bar(length: f64, n: usize) -> (Model, Conditions) {
+    let mesh = boxes(&lines(0.0, length, n), &[0.0, 10.0], &[0.0, 10.0]).expect("a bar");
+    let width = length / n as f64;
+    let mut elements: Vec<Box<dyn Element>> = Vec::new();
+    for (i, (nodes, coords)) in cells(&mesh, &mesh.blocks()[0]).enumerate() {
+        let law: Arc<dyn Material<Solid>> = if i == 0 {
+            Arc::new(concrete())
+        } else {
+            Arc::new(Elastic::new(YOUNG, 0.0).expect("a bar"))
+        };
+        let band = BandWidth::Fixed(width);
+        elements.push(Box::new(
+            Hex20::new(nodes, &coords, HexRule::Full, law, band).expect("a bar"),
+        ));
+    }
+    let model = Model::new(mesh, elements);
+    let mut conditions = Conditions::new(&model);
+    hold(&model, &mut conditions, &[Dof::Uy, Dof::Uz], |_| true).expect("a bar");
+    hold(&model, &mut conditions, &[Dof::Ux], |x| x[0] == 0.0).expect("a bar");
+    push_faces(
+        &model,
+        &mut conditions,
+        |x| x[0] == length,
+        |_| Vector3::x(),
+    )
+    .expect("a bar");
+    (model, conditions)
+}
