@@ -6,11 +6,16 @@ use fe_core::material::Operator;
 use super::Stage;
 use crate::error::SolverError;
 
+/// Share of the largest reactions of all accepted steps below which a residual is not measured against the present
+/// ones: a body that has come off carries none, and no residual is small against them.
+pub const LEAST_SCALE: f64 = 1e-3;
+
 /// Size of a residual.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Residual {
-    /// |f_ext - f_int| on the free equations over the norm of the reactions (2-norms), or over 1 N where
-    /// there is no reaction.
+    /// |f_ext - f_int| on the free equations over the norm of the reactions (2-norms), which counts as [`LEAST_SCALE`] of
+    /// the largest of all accepted steps where it is less, and as 1 N where there has been none. Infinite if a
+    /// force is not a number.
     pub relative: f64,
     /// Largest component (N).
     pub largest: f64,
@@ -21,32 +26,33 @@ pub struct Residual {
 impl Stage<'_> {
     /// Size of a residual, measured against the reactions of the last evaluation.
     pub fn measure(&self, residual: &[f64]) -> Residual {
-        let mut reactions = 0.0;
-        for &d in self.conditions.prescribed().keys() {
-            reactions += (self.assembled.internal[d] - self.external[d]).powi(2);
-        }
+        let reactions = self.reactions();
         let (mut sum, mut largest, mut worst) = (0.0, 0.0, 0);
         for (&d, r) in self.assembler.free().iter().zip(residual) {
             sum += r * r;
-            if r.abs() > largest || !r.is_finite() {
+            // The first component that is not a number stays the worst.
+            if r.abs() > largest || (r.is_nan() && !largest.is_nan()) {
                 (largest, worst) = (r.abs(), d as usize);
             }
         }
-        let scale = if reactions > 0.0 {
-            reactions.sqrt()
-        } else {
-            1.0
-        };
+        let scale = reactions.max(LEAST_SCALE * self.largest_reactions);
+        let scale = if scale > 0.0 { scale } else { 1.0 };
         let relative = if sum == 0.0 { 0.0 } else { sum.sqrt() / scale };
+        let finite = relative.is_finite() && reactions.is_finite();
         Residual {
-            relative: if relative.is_nan() {
-                f64::INFINITY
-            } else {
-                relative
-            },
+            relative: if finite { relative } else { f64::INFINITY },
             largest,
             worst,
         }
+    }
+
+    /// Norm of the reactions (N) of the last evaluation.
+    pub(super) fn reactions(&self) -> f64 {
+        let mut sum = 0.0;
+        for &d in self.conditions.prescribed().keys() {
+            sum += (self.assembled.internal[d] - self.external[d]).powi(2);
+        }
+        sum.sqrt()
     }
 
     /// Work-conjugate load of the last evaluation (N, for a load factor in mm): (f_int - f_dead) . du / dlambda

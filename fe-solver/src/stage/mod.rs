@@ -13,7 +13,7 @@ use fe_core::state::StateStore;
 use crate::error::SolverError;
 use crate::linear::{DirectSolver, LinearError, LinearSolver};
 
-pub use measures::Residual;
+pub use measures::{LEAST_SCALE, Residual};
 
 /// Deterministic counts of the work done.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -64,6 +64,8 @@ pub struct Stage<'m> {
     lambda: f64,
     previous: Option<(Vec<f64>, f64)>,
     accepted_load: f64,
+    /// Largest norm of the reactions (N) of all accepted states.
+    largest_reactions: f64,
     counters: Counters,
     times: PhaseTimes,
 }
@@ -100,6 +102,7 @@ impl<'m> Stage<'m> {
             lambda: 0.0,
             previous: None,
             accepted_load: 0.0,
+            largest_reactions: 0.0,
             counters: Counters::default(),
             times: PhaseTimes::default(),
         })
@@ -298,6 +301,7 @@ impl<'m> Stage<'m> {
         self.displacement = u;
         self.lambda = lambda;
         self.accepted_load = self.load();
+        self.largest_reactions = self.largest_reactions.max(self.reactions());
         self.state.commit();
         self.counters.steps += 1;
     }
