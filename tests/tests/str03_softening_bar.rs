@@ -5,11 +5,13 @@
 //! L = 2 E GF/ft^2 = 991.7 mm the end moves back.
 
 use fe_core::dof::Dof;
+use fe_core::model::Conditions;
 use fe_solver::control::StepControl;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings};
 use fe_solver::path::FreeDisplacement;
+use fe_solver::secant::SecantAnderson;
 use fe_tests::mesh::nodes_where;
-use fe_tests::softening_bar::{ENERGY, OPENING, STRENGTH, YOUNG, bar};
+use fe_tests::softening_bar::{AREA, ENERGY, OPENING, STRENGTH, YOUNG, bar};
 use fe_tests::solve::run;
 
 /// Stress and displacement of the end along the path of a bar of `n` cells, the first of which cracks; driven by the
@@ -73,4 +75,42 @@ fn falling_branch_and_dissipation() {
             "{length}, {cells}: {work} + {rest}"
         );
     }
+}
+
+/// Protects the measure of the residual: a bar that has come apart carries nothing, and its residual is not to vanish against
+/// that. Target: displacement control of a short bar reaches twice the critical opening, by steps that converge, under a load
+/// below a thousandth of the peak.
+#[test]
+fn a_bar_in_two_parts_is_in_equilibrium() {
+    let (model, forces) = bar(200.0, 4);
+    let mut conditions = Conditions::new(&model);
+    for (&dof, &rate) in forces.prescribed() {
+        let (node, kind) = model.dofs().owner(dof);
+        assert!(rate == 0.0);
+        conditions.fix(&model, node, kind).unwrap();
+    }
+    for node in nodes_where(model.mesh(), |x| x[0] == 200.0) {
+        conditions.prescribe(&model, node, Dof::Ux, 1.0).unwrap();
+    }
+    let control = StepControl {
+        criterion: 1e-6,
+        ..StepControl::new(OPENING / 20.0, 2.0 * OPENING)
+    };
+    let (mut peak, mut last) = (0.0_f64, f64::NAN);
+    run(
+        &model,
+        conditions,
+        &control,
+        &mut SecantAnderson::default(),
+        |_| {},
+        |view| {
+            peak = peak.max(view.load);
+            last = view.load;
+        },
+    )
+    .unwrap();
+    assert!(
+        peak > 0.8 * STRENGTH * AREA && last.abs() < 1e-3 * peak,
+        "{peak} {last}"
+    );
 }
