@@ -92,8 +92,8 @@ fn relative_fall(from: f64, to: f64) -> f64 {
     if from > 0.0 { (from - to) / from } else { 0.0 }
 }
 
-/// How far a computed peak can be relied on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// How far a computed peak can be relied on, from the best to the worst.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Trust {
     /// Equilibrium holds at every step up to the peak.
     High,
@@ -218,6 +218,32 @@ impl Verdict {
     }
 }
 
+/// Change of the peak under halving of the steps beyond which it is trusted within limits only.
+pub const MAX_STEP_CHANGE: f64 = 0.03;
+/// The same beyond which it is not trusted.
+pub const MAX_STEP_CHANGE_LIMITED: f64 = 0.10;
+
+impl Verdict {
+    /// Lowers the trust by the relative change of the peak when all steps are halved: limited beyond 3 %, low beyond
+    /// 10 %, or where there is no such peak. The reason is added to.
+    pub fn limit_by_step(&mut self, change: f64) {
+        let size = change.abs();
+        let trust = if size <= MAX_STEP_CHANGE {
+            Trust::High
+        } else if size <= MAX_STEP_CHANGE_LIMITED {
+            Trust::Limited
+        } else {
+            Trust::Low
+        };
+        self.trust = self.trust.max(trust);
+        let reason = format!(
+            "; half the steps change the peak by {:+.1} %",
+            100.0 * change
+        );
+        self.reason.push_str(&reason);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     //! Protects the reading of a path: arching after a diagonal crack must not hide the first drop.
@@ -318,6 +344,28 @@ mod tests {
         let verdict = Verdict::of(&p, &Capacity::of(&p).unwrap());
         assert_eq!((verdict.trust, verdict.jumps), (Trust::Limited, 1));
         assert!(verdict.gap.is_some_and(|gap| (gap - 0.001).abs() < 1e-12));
+    }
+
+    #[test]
+    fn trust_falls_with_the_change_of_the_peak_under_half_the_steps() {
+        for (change, expected) in [
+            (-0.03, Trust::High),
+            (0.05, Trust::Limited),
+            (-0.2, Trust::Low),
+            (f64::NAN, Trust::Low),
+        ] {
+            let path = peaked();
+            let mut verdict = Verdict::of(&path, &Capacity::of(&path).unwrap());
+            verdict.limit_by_step(change);
+            assert_eq!(verdict.trust, expected, "{change}");
+            assert!(verdict.reason.contains("half the steps"));
+        }
+        let mut jumps = peaked();
+        jumps[27].held = true;
+        jumps[27].load = 0.9;
+        let mut verdict = Verdict::of(&jumps, &Capacity::of(&jumps).unwrap());
+        verdict.limit_by_step(0.0);
+        assert_eq!(verdict.trust, Trust::Limited);
     }
 
     #[test]

@@ -43,6 +43,10 @@ pub struct RunOptions {
     #[arg(long)]
     pub counterfactual: bool,
 
+    /// Run every beam a second time with steps half as long, and print by how much the peak changes
+    #[arg(long)]
+    pub band: bool,
+
     /// Solution of a step
     #[arg(long, value_enum, default_value_t)]
     pub driver: Driver,

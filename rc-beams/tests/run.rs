@@ -27,6 +27,36 @@ fn summary(folder: &Path) -> Value {
     serde_json::from_slice(&fs::read(folder.join("A-SO3-1/summary.json")).unwrap()).unwrap()
 }
 
+/// Target: `--band` adds the peak with half the steps, which differs, and leaves the run itself as it is, to the last bit.
+#[test]
+fn half_the_steps_give_a_band() {
+    let alone = tempfile::tempdir().unwrap();
+    let banded = tempfile::tempdir().unwrap();
+    let mut arguments = vec![
+        "A-SO3-1", "--mesh", "16x2x1", "--until", "0.4", "--fields", "none",
+    ];
+    assert_eq!(run(alone.path(), &arguments).status.code(), Some(0));
+    arguments.push("--band");
+    let output = run(banded.path(), &arguments);
+    assert_eq!(output.status.code(), Some(0));
+    let history = |folder: &Path| fs::read(folder.join("A-SO3-1/history.csv")).unwrap();
+    assert_eq!(history(alone.path()), history(banded.path()));
+    let (plain, summary) = (summary(alone.path()), summary(banded.path()));
+    assert!(plain["step_band"].is_null());
+    let number = |value: &Value| value.as_f64().unwrap();
+    let (peak, band) = (number(&summary["peak_load_kn"]), &summary["step_band"]);
+    let halved = number(&band["halved_peak_load_kn"]);
+    assert!(halved != peak && (number(&band["change"]) - (halved / peak - 1.0)).abs() < 1e-12);
+    assert!((number(&band["extrapolated_peak_load_kn"]) - (2.0 * halved - peak)).abs() < 1e-9);
+    let reason = summary["trust_reason"].as_str().unwrap();
+    assert!(
+        reason.contains("half the steps change the peak by"),
+        "{reason}"
+    );
+    let line = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(line.contains("half steps"), "{line}");
+}
+
 /// Source: several independent methods on the law of the characteristic preset without dowel action put
 /// the peak of A-SO3-1 at 149 +- 2 kN and 2.05 to 2.1 mm. Target: within 2 %, the true residual at most
 /// 1e-3 at every step, a drop of at least 20 %, a diagonal failure.

@@ -25,6 +25,8 @@ pub const FOLLOW: f64 = 1.5;
 pub struct Stepping {
     /// First step (mm).
     pub initial_mm: f64,
+    /// Share of the deflection reached that a step may take where this is longer than twice the first step.
+    pub longest_share: f64,
     /// Imposed deflection at which the path ends at the latest (mm).
     pub until_mm: f64,
     /// Whether the path is followed to `until_mm` whatever happens to the load.
@@ -35,8 +37,6 @@ pub struct Stepping {
 
 /// Longest step over the first one.
 const LONGEST: f64 = 2.0;
-/// Share of the deflection reached that a step may take where this is longer.
-const LONGEST_SHARE: f64 = 0.02;
 /// First step over the shortest one.
 const SHORTEST: f64 = 16.0;
 /// Steps with fewer iterations are followed by longer ones.
@@ -47,10 +47,20 @@ const GROWTH: f64 = 1.5;
 const CUT: f64 = 0.25;
 
 impl Stepping {
+    /// The same path in steps half as long.
+    #[must_use]
+    pub fn halved(&self) -> Self {
+        Self {
+            initial_mm: 0.5 * self.initial_mm,
+            longest_share: 0.5 * self.longest_share,
+            ..*self
+        }
+    }
+
     fn control(&self) -> StepControl {
         StepControl {
             longest: (LONGEST * self.initial_mm).min(self.until_mm),
-            longest_share: LONGEST_SHARE,
+            longest_share: self.longest_share,
             shortest: self.initial_mm / SHORTEST,
             criterion: self.criterion,
             easy: EASY,

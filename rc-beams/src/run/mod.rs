@@ -1,6 +1,6 @@
 //! Runs specimens: model, analysis, files and the line on the terminal.
 
-mod counterfactual;
+mod again;
 mod error;
 mod evidence;
 mod pictures;
@@ -19,7 +19,7 @@ use fe_solver::error::SolverError;
 use crate::analysis::{AnalysisError, Outcome, Staging, analyse};
 use crate::build::{Beam, ModelSettings};
 use crate::exit::Exit;
-use crate::options::RunOptions;
+use crate::options::{Bond, RunOptions};
 use crate::output;
 use crate::results::error::ResultsError;
 use crate::results::evidence::{Layout, Snapshot};
@@ -29,7 +29,7 @@ use crate::results::mode::Diagnosis;
 use crate::results::progress::Board;
 use crate::results::resources::Resources;
 use crate::results::sheets::{MapState, SheetDrop};
-use crate::results::summary::{Figures, Summary, WallTime, Work};
+use crate::results::summary::{Figures, StepBand, Summary, WallTime, Work};
 use crate::spec::Specimen;
 pub use error::RunError;
 use plan::{driver, settings, setup, stepping};
@@ -136,8 +136,20 @@ fn run(
     }
     let (stop_reason, exit) = end(&outcome, interrupt);
     let kept = kept(&stop_reason, exit, &folder);
-    let figures = Capacity::of(&outcome.path).and_then(|capacity| {
-        let verdict = Verdict::of(&outcome.path, &capacity);
+    let capacity = Capacity::of(&outcome.path);
+    let band = match capacity.and_then(|c| outcome.path.get(c.peak)) {
+        Some(peak) if options.band => {
+            let halved = stepping.halved();
+            again::peak_kn(specimen, &settings, &halved, options, interrupt)?
+                .map(|halved| StepBand::new(peak.load, halved))
+        }
+        _ => None,
+    };
+    let figures = capacity.and_then(|capacity| {
+        let mut verdict = Verdict::of(&outcome.path, &capacity);
+        if let Some(band) = &band {
+            verdict.limit_by_step(band.change);
+        }
         Some((
             Figures::of(&outcome.path, &capacity, &verdict)?,
             capacity,
@@ -154,7 +166,11 @@ fn run(
     let last = evidence::snapshot(beam, at_end)?;
     let ratio = match &beam.sheets {
         Some(_) if options.counterfactual => {
-            let peak = counterfactual::peak_kn(specimen, &settings, &stepping, options, interrupt)?;
+            let perfect = ModelSettings {
+                bond: Bond::Perfect,
+                ..settings
+            };
+            let peak = again::peak_kn(specimen, &perfect, &stepping, options, interrupt)?;
             peak.map(|perfect| perfect / figures.peak_load_kn)
         }
         _ => None,
@@ -195,6 +211,7 @@ fn run(
         stop_reason,
         diagnosis,
         bond_error,
+        step_band: band,
         self_weight_reaction_kn: outcome.self_weight_kn,
         energy: Some(watch.energy()),
         wall_s: wall,

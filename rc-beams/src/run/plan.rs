@@ -16,6 +16,8 @@ use crate::spec::Specimen;
 /// A-SO3-1 between 138.5 and 140.7 kN, with the characteristic preset between 148.7 and 155.9 kN: the path
 /// passes bifurcations, and the step decides which branch it takes.
 const FIRST_STEP_MM: f64 = 0.02;
+/// Share of the deflection reached that a step may take: beams that yield are followed in longer steps.
+const LONGEST_SHARE: f64 = 0.02;
 /// Without a final deflection the path is followed past its peak, at most to this multiple of the
 /// deflection that the source imposed.
 const FARTHEST: f64 = 4.0;
@@ -51,6 +53,7 @@ pub(super) fn stepping(specimen: &Specimen, options: &RunOptions) -> Stepping {
         initial_mm: options
             .steps
             .map_or(FIRST_STEP_MM.min(end), |n| end / f64::from(n)),
+        longest_share: LONGEST_SHARE,
         until_mm: options.until_mm.unwrap_or(FARTHEST * imposed),
         to_the_end: options.until_mm.is_some(),
         criterion: CRITERION,

@@ -38,6 +38,8 @@ pub struct Summary {
     pub ratio_model_to_test: Option<f64>,
     /// What the size of the elements costs in bond.
     pub bond_error: Option<BondError>,
+    /// What the length of the steps costs, where it was asked for.
+    pub step_band: Option<StepBand>,
     /// Sum of the vertical reactions under self weight (kN), whole width.
     pub self_weight_reaction_kn: f64,
     /// Energy by part, where it is followed.
@@ -73,6 +75,29 @@ impl std::fmt::Display for BondError {
             100.0 * self.relative,
             self.exact_n_per_mm
         )
+    }
+}
+
+/// Peak with steps half as long.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StepBand {
+    /// Peak load with steps half as long (kN).
+    pub halved_peak_load_kn: f64,
+    /// Its change relative to the peak.
+    pub change: f64,
+    /// Peak load extrapolated to steps of no length, 2 P(h/2) - P(h) (Richardson 1911, first order) (kN); an estimate only
+    /// where both runs follow one branch.
+    pub extrapolated_peak_load_kn: f64,
+}
+
+impl StepBand {
+    /// Compares two peaks (kN).
+    pub fn new(peak_kn: f64, halved_kn: f64) -> Self {
+        Self {
+            halved_peak_load_kn: halved_kn,
+            change: (halved_kn - peak_kn) / peak_kn,
+            extrapolated_peak_load_kn: 2.0 * halved_kn - peak_kn,
+        }
     }
 }
 
@@ -224,8 +249,12 @@ impl Summary {
             }
             _ => String::new(),
         };
+        let band = self.step_band.map_or_else(String::new, |band| {
+            let (halved, change) = (band.halved_peak_load_kn, 100.0 * band.change);
+            format!("  half steps {halved:.1} kN ({change:+.1} %)")
+        });
         format!(
-            "{:<8}  peak {:.1} kN at {:.2} mm{test}  {}  trust {}  {} steps  {:.1} s",
+            "{:<8}  peak {:.1} kN at {:.2} mm{test}{band}  {}  trust {}  {} steps  {:.1} s",
             self.setup.specimen,
             figures.peak_load_kn,
             figures.deflection_at_peak_mm,

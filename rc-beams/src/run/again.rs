@@ -1,4 +1,4 @@
-//! The same beam with perfect bond: what the peak would be if the sheets could not slip.
+//! The same beam once more, modelled or stepped otherwise: what the peak would be with perfect bond, or with steps half as long.
 
 use std::io;
 
@@ -9,7 +9,7 @@ use super::plan::driver;
 use super::{RunError, build};
 use crate::analysis::{Observer, Reading, Staging, Stepping, analyse};
 use crate::build::{Beam, ModelSettings};
-use crate::options::{Bond, RunOptions};
+use crate::options::RunOptions;
 use crate::results::interrupt::Interrupt;
 use crate::spec::Specimen;
 
@@ -34,7 +34,7 @@ impl Observer for Silent<'_> {
     }
 }
 
-/// Peak load (kN) with perfect bond, everything else alike; none when the run was interrupted.
+/// Peak load (kN) with the given settings and steps; none when the run was interrupted.
 pub(super) fn peak_kn(
     specimen: &Specimen,
     settings: &ModelSettings,
@@ -42,14 +42,10 @@ pub(super) fn peak_kn(
     options: &RunOptions,
     interrupt: &Interrupt,
 ) -> Result<Option<f64>, RunError> {
-    let settings = ModelSettings {
-        bond: Bond::Perfect,
-        ..*settings
-    };
-    let beam = build(specimen, &settings)?;
+    let beam = build(specimen, settings)?;
     let staging = specimen.staged.as_ref().map(|staged| Staging {
         specimen,
-        settings: &settings,
+        settings,
         staged,
     });
     let mut driver = driver(options);
