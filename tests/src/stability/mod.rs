@@ -1,0 +1,96 @@
+//! Where methods fail: scenes with a known path, each given to every method.
+//!
+//! A case ends in one of four ways. *Correct*: it arrived, and every figure is within its tolerance. *Stopped*: the
+//! method gave up with an error, and says so. *Wrong, reported*: a figure is off, and the run itself said that it
+//! jumped or missed its criterion. *Wrong and silent*: a figure is off and nothing was said: the only outcome that harms.
+
+mod chart;
+mod figures;
+mod method;
+mod scenario;
+
+pub use chart::chart;
+pub use figures::{Figure, Target};
+pub use method::Method;
+pub use scenario::{SCENARIOS, Scenario};
+
+use fe_solver::error::SolverError;
+use fe_solver::stage::Counters;
+
+/// What came of a scenario by one method.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    /// Figures beside their targets.
+    pub figures: Vec<Figure>,
+    /// The error it ended with, if it did.
+    pub stopped: Option<String>,
+    /// Steps of which the run itself said that they jumped or missed the criterion.
+    pub marked: usize,
+    /// Work done.
+    pub counters: Counters,
+}
+
+/// How a case ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// Arrived, every figure within tolerance.
+    Correct,
+    /// Gave up and said so.
+    Stopped,
+    /// Off, and said so.
+    Reported,
+    /// Off, and nothing was said.
+    Silent,
+}
+
+impl Case {
+    /// Runs a scenario by a method, with its steps `coarse` times as long.
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError`] where there is no path at all.
+    pub fn run(scenario: &Scenario, method: Method, coarse: f64) -> Result<Self, SolverError> {
+        let path = method.follow(scenario, coarse)?;
+        Ok(Self {
+            figures: (scenario.figures)(&path),
+            stopped: path.stopped,
+            marked: path.marked,
+            counters: path.counters,
+        })
+    }
+
+    /// How it ended.
+    pub fn outcome(&self) -> Outcome {
+        if self.stopped.is_some() {
+            Outcome::Stopped
+        } else if self.figures.iter().all(Figure::holds) {
+            Outcome::Correct
+        } else if self.marked > 0 {
+            Outcome::Reported
+        } else {
+            Outcome::Silent
+        }
+    }
+}
+
+impl Outcome {
+    /// In words.
+    pub const fn label(self) -> &'static str {
+        match self {
+            Self::Correct => "correct",
+            Self::Stopped => "stopped, says so",
+            Self::Reported => "wrong, says so",
+            Self::Silent => "wrong and silent",
+        }
+    }
+
+    /// Colour in the chart, distinguishable without colour vision (Wong 2011).
+    pub const fn colour(self) -> &'static str {
+        match self {
+            Self::Correct => "#009E73",
+            Self::Stopped => "#56B4E9",
+            Self::Reported => "#E69F00",
+            Self::Silent => "#D55E00",
+        }
+    }
+}
