@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{Method, Outcome};
 
-const NAME: f64 = 430.0;
+const NAME: f64 = 520.0;
 const CELL: [f64; 2] = [64.0, 26.0];
 const HEAD: f64 = 150.0;
 
@@ -14,7 +14,7 @@ const HEAD: f64 = 150.0;
 ///
 /// None: a string takes what is written.
 pub fn chart(rows: &[(String, Vec<Outcome>)], caption: &str) -> Result<String, std::fmt::Error> {
-    let width = NAME + CELL[0] * Method::ALL.len() as f64 + 20.0;
+    let width = NAME + CELL[0] * Method::ALL.len() as f64 + 80.0;
     let bottom = HEAD + CELL[1] * rows.len() as f64;
     let mut out = String::new();
     writeln!(
