@@ -1,7 +1,7 @@
 //! Path control chosen by the state of the path.
 
 use crate::anderson::dot;
-use crate::driver::{Attempt, Driver, IterationLog};
+use crate::driver::{Attempt, Driver, IterationLog, Request};
 use crate::error::SolverError;
 use crate::newton::{NewtonRaphson, NewtonSettings};
 use crate::path::{Dissipation, Energies, LoadedDisplacement, Mode};
@@ -47,8 +47,8 @@ pub struct Automatic {
     length: f64,
     /// Energy that a step dissipates per mm of its length (N); 0 before the first that does.
     rate: f64,
-    /// Load factor of the last accepted step that was looked at.
-    seen: Option<f64>,
+    /// Accepted steps of the stage when it was looked at last.
+    seen: usize,
     notes: Vec<String>,
 }
 
@@ -64,7 +64,7 @@ impl Automatic {
             control: Control::Displacement,
             length: 0.0,
             rate: 0.0,
-            seen: None,
+            seen: 0,
             notes: Vec::new(),
         }
     }
@@ -83,10 +83,11 @@ impl Automatic {
 
     /// Looks at the last accepted step, once.
     fn look_back(&mut self, stage: &Stage<'_>) -> Result<(), SolverError> {
-        if self.seen.replace(stage.lambda()) == Some(stage.lambda()) {
+        let steps = stage.counters().steps;
+        if std::mem::replace(&mut self.seen, steps) == steps {
             return Ok(());
         }
-        let (Some(last), Some((du, _))) = (Energies::of(stage, None)?, stage.previous()) else {
+        let (Some(last), Some((du, _))) = (Energies::last(stage)?, stage.previous()) else {
             return Ok(());
         };
         if self.control == Control::Dissipation {
@@ -109,20 +110,22 @@ impl Automatic {
     fn run(
         &mut self,
         stage: &mut Stage<'_>,
-        length: f64,
-        criterion: f64,
-        last_resort: bool,
+        request: Request,
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
-        let (driver, length) = match (self.control, &mut self.mode) {
-            (Control::Dissipation, _) => (&mut self.dissipation, self.rate * length),
-            (Control::Mode, Some(mode)) => (mode, ONSET * length),
-            _ => (&mut self.displacement, length),
+        let (driver, scale) = match (self.control, &mut self.mode) {
+            (Control::Dissipation, _) => (&mut self.dissipation, self.rate),
+            (Control::Mode, Some(mode)) => (mode, ONSET),
+            _ => (&mut self.displacement, 1.0),
         };
-        let mut attempt = match driver.attempt(stage, length, criterion, last_resort, log) {
+        let scaled = Request {
+            length: scale * request.length,
+            ..request
+        };
+        let mut attempt = match driver.attempt(stage, scaled, log) {
             Ok(attempt) => attempt,
             // More was asked for than there is left: what has failed is loose.
-            Err(SolverError::Singular { .. }) if !last_resort => Attempt {
+            Err(SolverError::Singular { .. }) if !request.last_resort => Attempt {
                 displacement: stage.displacement().to_vec(),
                 lambda: stage.lambda(),
                 converged: false,
@@ -136,11 +139,9 @@ impl Automatic {
             },
             Err(e) => return Err(e),
         };
-        let to = Some((attempt.displacement.as_slice(), attempt.lambda));
-        if let Some(energies) = Energies::of(stage, to)? {
-            let falls = attempt.lambda.abs() < stage.lambda().abs();
-            attempt.converged &= !(falls && energies.dissipated < ELASTIC * energies.work.abs());
-        }
+        let energies = Energies::to(stage, &attempt.displacement, attempt.lambda)?;
+        let falls = attempt.lambda.abs() < stage.lambda().abs();
+        attempt.converged &= !(falls && energies.dissipated < ELASTIC * energies.work.abs());
         Ok(attempt)
     }
 
@@ -188,14 +189,12 @@ impl Driver for Automatic {
     fn attempt(
         &mut self,
         stage: &mut Stage<'_>,
-        length: f64,
-        criterion: f64,
-        last_resort: bool,
+        request: Request,
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
         self.look_back(stage)?;
         let usual = self.control;
-        let mut result = self.run(stage, length, criterion, last_resort, log);
+        let mut result = self.run(stage, request, log);
         let mut serves = result.as_ref().is_ok_and(|a| a.converged);
         let recoverable = match &result {
             Ok(_) => true,
@@ -205,8 +204,10 @@ impl Driver for Automatic {
             for (other, mode) in self.others(stage, result.as_ref().ok()) {
                 stage.roll_back();
                 self.control = other;
-                self.mode = mode.or(self.mode.take());
-                let again = self.run(stage, length, criterion, last_resort, log);
+                if mode.is_some() {
+                    self.mode = mode;
+                }
+                let again = self.run(stage, request, log);
                 self.control = usual;
                 if again.as_ref().is_ok_and(|a| a.converged) {
                     self.switch(other, "a step of the same length failed under the other");
@@ -216,7 +217,7 @@ impl Driver for Automatic {
             }
         }
         if serves {
-            self.length = length;
+            self.length = request.length;
         }
         result
     }

@@ -120,6 +120,11 @@ pub const MAX_FLAGGED_RESIDUAL: f64 = 0.03;
 /// Relative gap between work-conjugate load and load beyond which no peak is trusted.
 pub const MAX_LOAD_GAP: f64 = 0.03;
 
+/// Change of the peak under halving of the steps beyond which it is trusted within limits only.
+pub const MAX_STEP_CHANGE: f64 = 0.03;
+/// The same beyond which it is not trusted.
+pub const MAX_STEP_CHANGE_LIMITED: f64 = 0.10;
+
 /// Verdict on the peak of a path, with its evidence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verdict {
@@ -216,14 +221,7 @@ impl Verdict {
             max_residual: worst(&mut before.iter()),
         }
     }
-}
 
-/// Change of the peak under halving of the steps beyond which it is trusted within limits only.
-pub const MAX_STEP_CHANGE: f64 = 0.03;
-/// The same beyond which it is not trusted.
-pub const MAX_STEP_CHANGE_LIMITED: f64 = 0.10;
-
-impl Verdict {
     /// Lowers the trust by the relative change of the peak when all steps are halved: limited beyond 3 %, low beyond
     /// 10 %, or where there is no such peak. The reason is added to.
     pub fn limit_by_step(&mut self, change: f64) {

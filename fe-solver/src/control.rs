@@ -1,6 +1,6 @@
 //! Step control: adaptive length, shortening on failure, acceptance, recording.
 
-use crate::driver::{Attempt, Driver};
+use crate::driver::{Attempt, Driver, Request};
 use crate::error::SolverError;
 use crate::recorder::{Continue, IterationRecord, Recorder, StepView};
 use crate::stage::Stage;
@@ -197,9 +197,11 @@ impl StepControl {
         let lambda = stage.lambda() + plan.length;
         let result = driver.attempt(
             stage,
-            plan.length,
-            self.criterion,
-            plan.last_resort,
+            Request {
+                length: plan.length,
+                criterion: self.criterion,
+                last_resort: plan.last_resort,
+            },
             &mut |residual, line_search| {
                 recorder.iteration(&IterationRecord {
                     step: plan.step,

@@ -8,6 +8,17 @@ use crate::stage::{Residual, Stage};
 /// What a driver reports of each iteration: residual and line-search factor.
 pub type IterationLog<'a> = dyn FnMut(&Residual, f64) -> Result<(), SolverError> + 'a;
 
+/// What is asked of an attempt.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Request {
+    /// Length of the step along the path: the increment of the load factor, unless a path constraint says otherwise.
+    pub length: f64,
+    /// Relative residual to reach.
+    pub criterion: f64,
+    /// Whether the step will not be shortened any more.
+    pub last_resort: bool,
+}
+
 /// Result of one attempt at a step. The trial state of the stage is that of `displacement`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attempt {
@@ -30,10 +41,7 @@ pub trait Driver: Debug {
     /// Name, for output.
     fn name(&self) -> &'static str;
 
-    /// Tries a step of the given length along the path (the increment of the load factor, unless a path
-    /// constraint says otherwise) within the relative residual `criterion`.
-    ///
-    /// `last_resort` tells that the step will not be shortened any more.
+    /// Tries a step.
     ///
     /// # Errors
     ///
@@ -41,9 +49,7 @@ pub trait Driver: Debug {
     fn attempt(
         &mut self,
         stage: &mut Stage<'_>,
-        length: f64,
-        criterion: f64,
-        last_resort: bool,
+        request: Request,
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError>;
 

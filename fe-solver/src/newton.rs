@@ -4,7 +4,7 @@ use fe_core::element::EvaluationContext;
 use fe_core::material::Operator;
 
 use crate::anderson::dot;
-use crate::driver::{Attempt, Driver, IterationLog};
+use crate::driver::{Attempt, Driver, IterationLog, Request};
 use crate::error::SolverError;
 use crate::path::{LoadFactor, PathConstraint};
 use crate::stage::Stage;
@@ -84,13 +84,11 @@ impl Driver for NewtonRaphson {
     fn attempt(
         &mut self,
         stage: &mut Stage<'_>,
-        length: f64,
-        criterion: f64,
-        _last_resort: bool,
+        request: Request,
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
         let s = self.settings;
-        self.constraint.begin(stage, length)?;
+        self.constraint.begin(stage, request.length)?;
         let tangent = EvaluationContext::new(s.operator);
         let force = EvaluationContext::new(Operator::None);
         let start = stage.restrict(stage.displacement());
@@ -151,7 +149,7 @@ impl Driver for NewtonRaphson {
             for (d, c) in du.iter_mut().zip(&correction) {
                 *d += factor * c;
             }
-            let converged = size.relative <= criterion;
+            let converged = size.relative <= request.criterion;
             if converged || worse || iterations >= s.max_iterations || !size.relative.is_finite() {
                 return Ok(Attempt {
                     displacement: u,

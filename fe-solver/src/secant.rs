@@ -6,7 +6,7 @@ use fe_core::material::Operator;
 use crate::anderson::Anderson;
 use crate::capacity::DROP_FALL;
 use crate::descent::{Descent, DescentSettings};
-use crate::driver::{Attempt, Driver, IterationLog};
+use crate::driver::{Attempt, Driver, IterationLog, Request};
 use crate::error::SolverError;
 use crate::stage::{Residual, Stage};
 
@@ -216,11 +216,14 @@ impl Driver for SecantAnderson {
     fn attempt(
         &mut self,
         stage: &mut Stage<'_>,
-        length: f64,
-        criterion: f64,
-        last_resort: bool,
+        request: Request,
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
+        let Request {
+            length,
+            criterion,
+            last_resort,
+        } = request;
         let lambda = stage.lambda() + length;
         let first = Self::predict(stage, length)?;
         let mut solve = self.solve(stage, first, lambda, criterion, log)?;

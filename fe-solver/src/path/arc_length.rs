@@ -34,6 +34,11 @@ impl ArcLength {
             ..Self::default()
         }
     }
+
+    /// Length of an increment (mm).
+    fn size(&self, du: &[f64], dlambda: f64) -> f64 {
+        (dot(du, du) + (self.psi * dlambda).powi(2)).sqrt()
+    }
 }
 
 impl PathConstraint for ArcLength {
@@ -48,12 +53,12 @@ impl PathConstraint for ArcLength {
     }
 
     fn extrapolate(&self, du: &[f64], dlambda: f64) -> Option<f64> {
-        let size = (dot(du, du) + (self.psi * dlambda).powi(2)).sqrt();
+        let size = self.size(du, dlambda);
         (size > 0.0).then(|| self.length / size)
     }
 
     fn linearise(&self, du: &[f64], dlambda: f64, gradient: &mut [f64]) -> Border {
-        let size = (dot(du, du) + (self.psi * dlambda).powi(2)).sqrt();
+        let size = self.size(du, dlambda);
         if size == 0.0 {
             gradient.copy_from_slice(&self.direction);
             return Border {

@@ -1,5 +1,6 @@
 //! Control of the energy that a step dissipates.
 
+use super::linear::Linear;
 use super::{Border, PathConstraint, reference_forces};
 use crate::anderson::dot;
 use crate::error::SolverError;
@@ -12,37 +13,27 @@ use crate::stage::Stage;
 /// an unloaded state. An elastic path dissipates nothing and cannot be followed: start with another constraint.
 /// Through limit points and snaps back it needs no choice of sign, and it cannot unload elastically.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Dissipation {
-    /// 1/2 lambda_0 f.
-    gradient: Vec<f64>,
-    /// -1/2 f . u_0.
-    slope: f64,
-    length: f64,
-}
+pub struct Dissipation(Linear);
 
 impl PathConstraint for Dissipation {
     fn begin(&mut self, stage: &Stage<'_>, length: f64) -> Result<(), SolverError> {
         let mut forces = reference_forces(stage)?;
-        self.slope = -0.5 * dot(&forces, &stage.restrict(stage.displacement()));
+        self.0.slope = -0.5 * dot(&forces, &stage.restrict(stage.displacement()));
         for f in &mut forces {
             *f *= 0.5 * stage.lambda();
         }
-        self.gradient = forces;
-        self.length = length;
+        self.0.gradient = forces;
+        self.0.length = length;
         Ok(())
     }
 
     fn extrapolate(&self, du: &[f64], dlambda: f64) -> Option<f64> {
-        let dissipated = dot(&self.gradient, du) + self.slope * dlambda;
-        (dissipated > 0.0).then(|| self.length / dissipated)
+        let dissipated = self.0.advance(du, dlambda);
+        (dissipated > 0.0).then(|| self.0.length / dissipated)
     }
 
     fn linearise(&self, du: &[f64], dlambda: f64, gradient: &mut [f64]) -> Border {
-        gradient.copy_from_slice(&self.gradient);
-        Border {
-            value: dot(&self.gradient, du) + self.slope * dlambda - self.length,
-            slope: self.slope,
-        }
+        self.0.linearise(du, dlambda, gradient)
     }
 }
 
@@ -57,35 +48,47 @@ pub struct Energies {
 
 impl Energies {
     /// Energies of the increment from the accepted state of a stage to `u` (all DOFs, mm) at the load factor
-    /// `lambda`; to the accepted state from the one before, if there is one and `u` is `None`.
+    /// `lambda`.
     ///
     /// # Errors
     ///
     /// [`SolverError::Setting`] if the load factor drives displacements.
-    pub fn of(stage: &Stage<'_>, to: Option<(&[f64], f64)>) -> Result<Option<Self>, SolverError> {
-        let forces = reference_forces(stage)?;
-        let here = stage.restrict(stage.displacement());
-        let (du, dl, start, lambda) = match (to, stage.previous()) {
-            (Some((u, lambda)), _) => {
-                let du: Vec<f64> = stage
-                    .restrict(u)
-                    .iter()
-                    .zip(&here)
-                    .map(|(a, b)| a - b)
-                    .collect();
-                (du, lambda - stage.lambda(), here, stage.lambda())
-            }
-            (None, Some((du, dl))) => {
-                let du = stage.restrict(du);
-                let start = here.iter().zip(&du).map(|(a, b)| a - b).collect();
-                (du, dl, start, stage.lambda() - dl)
-            }
-            (None, None) => return Ok(None),
-        };
-        let along = dot(&forces, &du);
-        Ok(Some(Self {
-            work: (lambda + 0.5 * dl) * along,
-            dissipated: 0.5 * (lambda * along - dl * dot(&forces, &start)),
-        }))
+    pub fn to(stage: &Stage<'_>, u: &[f64], lambda: f64) -> Result<Self, SolverError> {
+        let start = stage.restrict(stage.displacement());
+        let du = difference(&stage.restrict(u), &start);
+        let from = (start.as_slice(), stage.lambda());
+        Self::of(stage, from, (&du, lambda - stage.lambda()))
     }
+
+    /// Energies of the increment that led to the accepted state; none before the first step and after a snap.
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError::Setting`] if the load factor drives displacements.
+    pub fn last(stage: &Stage<'_>) -> Result<Option<Self>, SolverError> {
+        let Some((du, dlambda)) = stage.previous() else {
+            return Ok(None);
+        };
+        let du = stage.restrict(du);
+        let start = difference(&stage.restrict(stage.displacement()), &du);
+        let from = (start.as_slice(), stage.lambda() - dlambda);
+        Self::of(stage, from, (&du, dlambda)).map(Some)
+    }
+
+    fn of(
+        stage: &Stage<'_>,
+        (start, lambda): (&[f64], f64),
+        (du, dlambda): (&[f64], f64),
+    ) -> Result<Self, SolverError> {
+        let forces = reference_forces(stage)?;
+        let along = dot(&forces, du);
+        Ok(Self {
+            work: (lambda + 0.5 * dlambda) * along,
+            dissipated: 0.5 * (lambda * along - dlambda * dot(&forces, start)),
+        })
+    }
+}
+
+fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
 }

@@ -3,6 +3,7 @@
 mod arc_length;
 mod dissipation;
 mod free_displacement;
+mod linear;
 mod load_factor;
 mod loaded_displacement;
 mod mode;

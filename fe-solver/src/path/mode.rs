@@ -1,5 +1,6 @@
 //! Control of the amplitude of a mode.
 
+use super::linear::Linear;
 use super::{Border, PathConstraint};
 use crate::anderson::dot;
 use crate::error::SolverError;
@@ -11,10 +12,7 @@ use crate::stage::Stage;
 /// With the mode in which a structure fails, a crack that opens or a front that moves on, this is indirect
 /// displacement control (de Borst 1987) that needs nobody to name the crack.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Mode {
-    weights: Vec<f64>,
-    length: f64,
-}
+pub struct Mode(Linear);
 
 impl Mode {
     /// Controls a mode, scaled to a largest displacement of 1; `None` if it does not move, or is not finite.
@@ -27,25 +25,21 @@ impl Mode {
         for m in &mut mode {
             *m *= largest / square;
         }
-        Some(Self {
-            weights: mode,
-            length: 0.0,
-        })
+        Some(Self(Linear {
+            gradient: mode,
+            ..Linear::default()
+        }))
     }
 }
 
 impl PathConstraint for Mode {
     fn begin(&mut self, _stage: &Stage<'_>, length: f64) -> Result<(), SolverError> {
-        self.length = length;
+        self.0.length = length;
         Ok(())
     }
 
-    fn linearise(&self, du: &[f64], _dlambda: f64, gradient: &mut [f64]) -> Border {
-        gradient.copy_from_slice(&self.weights);
-        Border {
-            value: dot(&self.weights, du) - self.length,
-            slope: 0.0,
-        }
+    fn linearise(&self, du: &[f64], dlambda: f64, gradient: &mut [f64]) -> Border {
+        self.0.linearise(du, dlambda, gradient)
     }
 }
 

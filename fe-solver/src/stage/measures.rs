@@ -48,11 +48,9 @@ impl Stage<'_> {
 
     /// Norm of the reactions (N) of the last evaluation.
     pub(super) fn reactions(&self) -> f64 {
-        let mut sum = 0.0;
-        for &d in self.conditions.prescribed().keys() {
-            sum += (self.assembled.internal[d] - self.external[d]).powi(2);
-        }
-        sum.sqrt()
+        let prescribed = self.conditions.prescribed().keys();
+        let squares = prescribed.map(|&d| self.reaction(d).powi(2));
+        squares.sum::<f64>().sqrt()
     }
 
     /// Work-conjugate load of the last evaluation (N, for a load factor in mm): (f_int - f_dead) . du / dlambda
@@ -72,9 +70,7 @@ impl Stage<'_> {
     /// the prescribed pattern; 0 where the factor drives forces only.
     pub fn load(&self) -> f64 {
         let prescribed = self.conditions.prescribed().iter();
-        prescribed
-            .map(|(&d, r)| (self.assembled.internal[d] - self.external[d]) * r)
-            .sum()
+        prescribed.map(|(&d, r)| self.reaction(d) * r).sum()
     }
 
     /// Reaction (N) of a constrained DOF in the last evaluation.
