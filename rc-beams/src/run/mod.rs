@@ -128,7 +128,6 @@ fn run(
         output: writing.as_secs_f64(),
         ..WallTime::default()
     };
-    let drawing = Instant::now();
     let mut work = Work::default();
     for (counters, times) in &outcome.work {
         work.add(counters);
@@ -183,6 +182,7 @@ fn run(
         &watch,
     );
     let setup = setup(specimen, options, &settings, beam, driver.name());
+    let drawing = Instant::now();
     pictures::curve(&folder, specimen, &setup, &outcome, (&capacity, &verdict))?;
     let title = format!(
         "cracks at the peak, {:.1} kN at {:.2} mm",
