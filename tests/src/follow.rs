@@ -1,8 +1,5 @@
 //! Paths under forces: load over the displacement it works on, for scenes whose closed forms are known.
 
-use std::sync::Arc;
-
-use fe_contact::{BondSettings, InterfaceRule, SlipDamage};
 use fe_core::dof::Dof;
 use fe_core::model::{Conditions, Model};
 use fe_core::state::StateStore;
@@ -12,20 +9,19 @@ use fe_solver::error::SolverError;
 use fe_solver::recorder::{Continue, Recorder, StepView};
 use fe_solver::stage::{Counters, Stage};
 
-use crate::mesh::lines;
-use crate::strip::{Strip, bond};
+use crate::strip::Strip;
 
 /// Length of the strip of [`pulled_strip`] (mm).
-pub const LENGTH: f64 = 400.0;
+const LENGTH: f64 = 400.0;
 /// Steps after which a path is given up.
 const BUDGET: usize = 3000;
 
-/// Force (N) over the displacement it works on (mm), until the force has fallen to a share of its peak.
+/// Force (N) over the displacement it works on (mm).
 #[derive(Debug)]
 pub struct Path {
-    /// Reference forces of all DOFs (N), and their sum.
+    /// Reference forces of all DOFs (N), and the size of their sum.
     forces: (Vec<f64>, f64),
-    end: f64,
+    arrived: fn(&Self) -> bool,
     /// Force and displacement of every step.
     pub points: Vec<[f64; 2]>,
     /// What the driver said.
@@ -51,8 +47,8 @@ impl Recorder for Path {
         let force = view.lambda * self.forces.1;
         self.points.push([force, along / self.forces.1]);
         self.counters = *view.stage.counters();
-        Ok(if force < self.end * self.peak() {
-            Continue::Stop("the force is gone".into())
+        Ok(if (self.arrived)(self) {
+            Continue::Stop("arrived".into())
         } else if self.points.len() >= BUDGET {
             self.stopped = Some(format!("not there after {BUDGET} steps"));
             Continue::Stop("budget".into())
@@ -85,8 +81,8 @@ impl Path {
     }
 }
 
-/// Follows a path from the virgin state by one driver after the other, each with its step control, until the force has
-/// fallen to the share `end` of its peak.
+/// Follows a path from the virgin state by one driver after the other, each with its step control, until it has
+/// `arrived`.
 ///
 /// # Errors
 ///
@@ -94,13 +90,13 @@ impl Path {
 pub fn follow(
     (model, conditions): (&Model, Conditions),
     legs: Vec<(StepControl, Box<dyn Driver>)>,
-    end: f64,
+    arrived: fn(&Path) -> bool,
 ) -> Result<Path, SolverError> {
     let forces = conditions.reference().to_vec();
-    let sum = forces.iter().sum();
+    let sum = forces.iter().sum::<f64>().abs();
     let mut path = Path {
         forces: (forces, sum),
-        end,
+        arrived,
         points: Vec::new(),
         notes: Vec::new(),
         stopped: None,
@@ -118,16 +114,29 @@ pub fn follow(
     Ok(path)
 }
 
+/// Steps of one length, which may shorten to 1/1024, without an end of their own.
+pub fn steps(length: f64, criterion: f64) -> StepControl {
+    StepControl {
+        criterion,
+        shortest: length / 1024.0,
+        ..StepControl::new(length, 1e6)
+    }
+}
+
+/// Whether the force is down to 2 % of its peak.
+pub fn gone(path: &Path) -> bool {
+    path.points
+        .last()
+        .is_some_and(|p| p[0] < 0.02 * path.peak())
+}
+
 /// The strip of STR-01, 400 mm in elements of 5 mm, under a force on its end.
 ///
 /// # Panics
 ///
 /// Never for these numbers.
 pub fn pulled_strip() -> (Model, Conditions) {
-    let bond = bond().expect("a bond");
-    let law = SlipDamage::new(bond, BondSettings::default()).expect("a law");
-    let x = lines(0.0, LENGTH, 80);
-    let strip = Strip::new(&x, InterfaceRule::Gauss3, &(Arc::new(law) as _)).expect("a strip");
+    let strip = Strip::uniform(LENGTH, 5.0);
     let mut conditions = strip.held().expect("supports");
     for (node, share) in strip.line(LENGTH) {
         conditions

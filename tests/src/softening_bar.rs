@@ -60,9 +60,7 @@ pub fn bar(length: f64, n: usize) -> (Model, Conditions) {
         ));
     }
     let model = Model::new(mesh, elements);
-    let mut conditions = Conditions::new(&model);
-    hold(&model, &mut conditions, &[Dof::Uy, Dof::Uz], |_| true).expect("a bar");
-    hold(&model, &mut conditions, &[Dof::Ux], |x| x[0] == 0.0).expect("a bar");
+    let mut conditions = held(&model);
     push_faces(
         &model,
         &mut conditions,
@@ -71,4 +69,16 @@ pub fn bar(length: f64, n: usize) -> (Model, Conditions) {
     )
     .expect("a bar");
     (model, conditions)
+}
+
+/// Supports of a bar without lateral contraction: one end held.
+///
+/// # Panics
+///
+/// For a model that is no bar.
+pub fn held(model: &Model) -> Conditions {
+    let mut conditions = Conditions::new(model);
+    hold(model, &mut conditions, &[Dof::Uy, Dof::Uz], |_| true).expect("a bar");
+    hold(model, &mut conditions, &[Dof::Ux], |x| x[0] == 0.0).expect("a bar");
+    conditions
 }

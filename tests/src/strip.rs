@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use fe_contact::envelope::{Bilinear, LuJoint};
-use fe_contact::{Interface, Interface16, InterfaceRule};
+use fe_contact::{BondSettings, Interface, Interface16, InterfaceRule, SlipDamage};
 use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError};
 use fe_core::material::{Material, MaterialError};
@@ -12,6 +12,8 @@ use fe_core::model::{Conditions, Model, ModelError};
 use fe_core::shape::quad8;
 use fe_elements::{Membrane8, QuadRule};
 use fe_materials::Elastic;
+
+use crate::mesh::lines;
 
 /// Width b_f of the strip of the closed form (mm).
 pub const WIDTH: f64 = 50.0;
@@ -47,6 +49,18 @@ pub struct Strip {
 }
 
 impl Strip {
+    /// A strip of equal elements with the bond of the closed form, bonded along `length` (mm).
+    ///
+    /// # Panics
+    ///
+    /// For a length or a size of the elements that is not positive.
+    pub fn uniform(length: f64, size: f64) -> Self {
+        let bond = bond().expect("a bond");
+        let law = SlipDamage::new(bond, BondSettings::default()).expect("a law");
+        let x = lines(0.0, length, (length / size).round() as usize);
+        Self::new(&x, InterfaceRule::Gauss3, &(Arc::new(law) as _)).expect("a strip")
+    }
+
     /// A strip with one element between neighbouring lines `x` (mm), all of it bonded.
     ///
     /// # Errors

@@ -5,9 +5,7 @@
 //! 0.13943 mm; L = 400 mm: 3648.9 N, 9269.91 N at 0.27687 mm, the loaded end turns back at 1.76917 mm (9003 N), the last
 //! a_u = 81.12 mm come off along a straight line from 1.72148 mm, 8521.5 N to s_f, 0.
 
-use std::sync::Arc;
-
-use fe_contact::{BondSettings, InterfaceRule, PullOut, SlipDamage};
+use fe_contact::PullOut;
 use fe_core::dof::Dof;
 use fe_core::model::Conditions;
 use fe_core::state::StateStore;
@@ -19,21 +17,9 @@ use fe_solver::path::FreeDisplacement;
 use fe_solver::recorder::{Continue, Recorder, StepView};
 use fe_solver::secant::{SecantAnderson, SecantSettings};
 use fe_solver::stage::Stage;
-use fe_tests::mesh::lines;
 use fe_tests::strip::{Strip, THICKNESS, WIDTH, YOUNG, bond};
 
 const FINAL: f64 = 0.27687;
-
-fn strip(length: f64, size: f64) -> Strip {
-    let law = SlipDamage::new(bond().unwrap(), BondSettings::default()).unwrap();
-    let n = (length / size).round() as usize;
-    Strip::new(
-        &lines(0.0, length, n),
-        InterfaceRule::Gauss3,
-        &(Arc::new(law) as _),
-    )
-    .unwrap()
-}
 
 fn closed() -> PullOut {
     PullOut::new(bond().unwrap(), YOUNG * THICKNESS).unwrap()
@@ -129,7 +115,7 @@ fn area(rows: &[Row]) -> f64 {
 fn elastic_limit() {
     for (length, target) in [(50.0, 3570.5), (400.0, 3648.9)] {
         let (rows, ..) = pull(
-            &strip(length, 5.0),
+            &Strip::uniform(length, 5.0),
             length,
             &control(0.0429, 0.0429),
             &mut newton(),
@@ -142,7 +128,12 @@ fn elastic_limit() {
 /// within 0.5 % of the peak from the closed form, dissipation L b_f G_f = 1142.1 N mm within 0.1 %.
 #[test]
 fn short_strip_along_its_whole_path() {
-    let (rows, ..) = pull(&strip(50.0, 5.0), 50.0, &control(1e-3, 0.28), &mut newton());
+    let (rows, ..) = pull(
+        &Strip::uniform(50.0, 5.0),
+        50.0,
+        &control(1e-3, 0.28),
+        &mut newton(),
+    );
     let peak = rows
         .iter()
         .max_by(|a, b| a.0[1].total_cmp(&b.0[1]))
@@ -172,7 +163,7 @@ fn short_strip_along_its_whole_path() {
 #[test]
 fn long_strip_to_its_plateau() {
     let (rows, ..) = pull(
-        &strip(400.0, 5.0),
+        &Strip::uniform(400.0, 5.0),
         400.0,
         &control(0.01, 1.0),
         &mut newton(),
@@ -190,7 +181,7 @@ fn long_strip_to_its_plateau() {
 #[test]
 fn long_strip_through_its_snap_back() {
     let (length, turn) = (400.0, 1.5);
-    let strip = strip(length, 5.0);
+    let strip = Strip::uniform(length, 5.0);
     let (mut rows, mut state, start) = pull(&strip, length, &control(0.02, turn), &mut newton());
     let force = rows.last().unwrap().0[1];
     let mut conditions = strip.held().unwrap();
@@ -257,7 +248,7 @@ fn long_strip_through_its_snap_back() {
 /// one step that says so, from more than 8521 N to what the residual stiffness carries, K0 1e-6 L b_f times the displacement.
 #[test]
 fn displacement_control_jumps_over_the_snap_back() {
-    let strip = strip(400.0, 10.0);
+    let strip = Strip::uniform(400.0, 10.0);
     let reach = StepControl {
         criterion: 1e-5,
         ..StepControl::new(0.02, 1.9)

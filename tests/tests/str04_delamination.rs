@@ -17,17 +17,16 @@ use fe_core::element::Element;
 use fe_core::material::Material;
 use fe_core::mesh::{CellKind, Mesh, NodeId};
 use fe_core::model::{Conditions, Model};
-use fe_core::state::StateStore;
 use fe_elements::HexRule;
 use fe_materials::Elastic;
 use fe_solver::automatic::Automatic;
 use fe_solver::control::StepControl;
 use fe_solver::driver::Driver;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings};
-use fe_solver::recorder::{Continue, Recorder, StepView};
+use fe_solver::recorder::StepView;
 use fe_solver::secant::SecantAnderson;
-use fe_solver::stage::Stage;
 use fe_tests::conditions::hold;
+use fe_tests::follow::{Path, follow, steps};
 use fe_tests::mesh::{BLOCK, boxes, faces, hexahedra, lines, nodes_where};
 use fe_tests::solve::run;
 
@@ -215,32 +214,32 @@ fn double_cantilever_beam() {
     compare(&path, [2.25, 2.9], 6, |w| beam_theory(w, 30.0, 50.0, dcb));
 }
 
-/// Supports of the end-notched specimen.
-fn bent(model: &Model) -> Conditions {
-    let mut conditions = Conditions::new(model);
-    hold(model, &mut conditions, &[Dof::Uy], |_| true).unwrap();
+/// An end-notched specimen with its supports, and the nodes that are loaded. The faces of the notch slide.
+fn notched(notch: f64) -> (Model, Conditions, Vec<NodeId>) {
     let [left, right] = [0.0, 2.0 * HALF_SPAN];
-    hold(model, &mut conditions, &[Dof::Uz], |x| {
+    let model = arms(&graded(notch, 52.0, right), |x| {
+        Some(if x > notch { delamination() } else { slides() })
+    });
+    let mut conditions = Conditions::new(&model);
+    hold(&model, &mut conditions, &[Dof::Uy], |_| true).unwrap();
+    hold(&model, &mut conditions, &[Dof::Uz], |x| {
         (x[0] == left || x[0] == right) && x[2] == -H
     })
     .unwrap();
-    hold(model, &mut conditions, &[Dof::Ux], |x| {
+    hold(&model, &mut conditions, &[Dof::Ux], |x| {
         x[0] == right && x[2] == -H
     })
     .unwrap();
-    conditions
+    let loaded = nodes_where(model.mesh(), |x| x[0] == HALF_SPAN && x[2] == H);
+    (model, conditions, loaded)
 }
 
-/// The faces of the notch slide on one another. Target: the load over displacement of beam theory while the crack grows from
+/// Target: the load over displacement of beam theory while the crack grows from
 /// 41 to 46 mm, within 1.2 %.
 #[test]
 fn end_notched_flexure() {
-    let notch = 38.0;
-    let model = arms(&graded(notch, 52.0, 2.0 * HALF_SPAN), |x| {
-        Some(if x > notch { delamination() } else { slides() })
-    });
-    let mut conditions = bent(&model);
-    for node in nodes_where(model.mesh(), |x| x[0] == HALF_SPAN && x[2] == H) {
+    let (model, mut conditions, loaded) = notched(38.0);
+    for node in loaded {
         conditions.prescribe(&model, node, Dof::Uz, -1.0).unwrap();
     }
     // Near the snap-back the crack passes weak instabilities, one an element, which the accelerated iteration
@@ -250,40 +249,26 @@ fn end_notched_flexure() {
     compare(&path, [1.55, 1.63], 3, |w| beam_theory(w, 34.67, 60.0, enf));
 }
 
-/// Deflection (mm) at nodes with their weights, and load (N), until the deflection has turned twice.
-struct Deflection<'a> {
-    at: &'a [(usize, f64)],
-    points: Vec<[f64; 2]>,
+/// The path from its largest force on.
+fn falling(path: &Path) -> &[[f64; 2]] {
+    let points = &path.points;
+    let peak = (0..points.len())
+        .max_by(|&a, &b| points[a][0].total_cmp(&points[b][0]))
+        .unwrap_or(0);
+    &points[peak..]
 }
 
-impl Deflection<'_> {
-    /// The path from its largest load on.
-    fn falling(&self) -> &[[f64; 2]] {
-        let peak = (0..self.points.len())
-            .max_by(|&a, &b| self.points[a][1].total_cmp(&self.points[b][1]))
-            .unwrap_or(0);
-        &self.points[peak..]
-    }
+/// Smallest displacement (mm) of some points.
+fn least(points: &[[f64; 2]]) -> f64 {
+    points.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min)
 }
 
-impl Recorder for Deflection<'_> {
-    fn step(&mut self, view: &StepView<'_>) -> std::io::Result<Continue> {
-        let u = view.stage.displacement();
-        let w: f64 = self.at.iter().map(|(d, share)| -share * u[*d]).sum();
-        let least = self
-            .falling()
-            .iter()
-            .map(|p| p[0])
-            .fold(f64::INFINITY, f64::min);
-        self.points.push([w, view.lambda]);
-        Ok(
-            if self.falling()[0][1] > 300.0 && view.lambda < 240.0 && w > least + 0.05 {
-                Continue::Stop("turned".into())
-            } else {
-                Continue::Yes
-            },
-        )
-    }
+/// Whether the displacement has turned twice.
+fn turned(path: &Path) -> bool {
+    let falling = falling(path);
+    path.points.last().is_some_and(|[force, w]| {
+        falling[0][0] > 300.0 && *force < 240.0 && *w > least(falling) + 0.05
+    })
 }
 
 /// STAB-21: a notch of 20 mm, 0.4 of the half span, under a force. The crack grows back and on again; nobody tells the driver.
@@ -291,45 +276,26 @@ impl Recorder for Deflection<'_> {
 /// curve of beam theory, within 1.2 %.
 #[test]
 fn end_notched_flexure_snaps_back() {
-    let notch = 20.0;
-    let model = arms(&graded(notch, 52.0, 2.0 * HALF_SPAN), |x| {
-        Some(if x > notch { delamination() } else { slides() })
-    });
-    let mut conditions = bent(&model);
-    let mut at = Vec::new();
-    for node in nodes_where(model.mesh(), |x| x[0] == HALF_SPAN && x[2] == H) {
+    let (model, mut conditions, loaded) = notched(20.0);
+    for node in loaded {
         let y = model.mesh().nodes()[node][1];
-        let share = if y == 0.0 || y == B {
-            1.0 / 6.0
-        } else {
-            4.0 / 6.0
-        };
+        let corner = y == 0.0 || y == B;
+        let share = if corner { 1.0 / 6.0 } else { 4.0 / 6.0 };
         conditions
             .add_reference(&model, node, Dof::Uz, -share)
             .unwrap();
-        at.push((model.dof(node, Dof::Uz).unwrap(), share));
     }
     for step in [0.05, 0.1, 0.2] {
-        let control = StepControl {
-            criterion: 1e-4,
-            shortest: step / 1024.0,
-            ..StepControl::new(step, 100.0)
-        };
-        let mut driver = Automatic::new(NewtonSettings::default());
-        let mut path = Deflection {
-            at: &at,
-            points: Vec::new(),
-        };
-        let mut state = StateStore::new(model.elements());
-        let virgin = vec![0.0; model.dofs().len()];
-        let mut stage = Stage::new(&model, conditions.clone(), &mut state, virgin).unwrap();
-        control.run(&mut stage, &mut driver, &mut path).unwrap();
-        let falling = path.falling();
-        let least = falling.iter().map(|p| p[0]).fold(f64::INFINITY, f64::min);
+        let driver = Automatic::new(NewtonSettings::default());
+        let legs: Vec<(_, Box<dyn Driver>)> = vec![(steps(step, 1e-4), Box::new(driver))];
+        let path = follow((&model, conditions.clone()), legs, turned).unwrap();
+        assert!(path.stopped.is_none(), "{step}: {:?}", path.stopped);
+        let falling = falling(&path);
+        let least = least(falling);
         assert!((least / 1.499 - 1.0).abs() < 6e-3, "{step}: {least}");
-        let on: Vec<_> = falling.iter().filter(|p| p[1] < 300.0).collect();
-        assert!(on.len() >= 4 && on[0][1] > 240.0, "{step}: {on:?}");
-        for [w, load] in on {
+        let on: Vec<_> = falling.iter().filter(|p| p[0] < 300.0).collect();
+        assert!(on.len() >= 4 && on[0][0] > 240.0, "{step}: {on:?}");
+        for [load, w] in on {
             let a = enf(1.0)[0] / load;
             assert!((w / enf(a)[1] - 1.0).abs() < 0.012, "{step}: {w}, {load}");
         }

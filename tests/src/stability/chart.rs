@@ -38,13 +38,7 @@ pub fn chart(rows: &[(String, Vec<Outcome>)], caption: &str) -> Result<String, s
             cell(&mut out, [NAME + CELL[0] * i as f64, y], *outcome)?;
         }
     }
-    let legend = [
-        Outcome::Correct,
-        Outcome::Stopped,
-        Outcome::Reported,
-        Outcome::Silent,
-    ];
-    for (i, outcome) in legend.into_iter().enumerate() {
+    for (i, outcome) in Outcome::ALL.into_iter().enumerate() {
         let x = 10.0 + 190.0 * i as f64;
         cell(&mut out, [x, bottom + 12.0], outcome)?;
         let (x, y, label) = (x + CELL[0] + 6.0, bottom + 29.0, outcome.label());

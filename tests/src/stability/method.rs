@@ -9,7 +9,7 @@ use fe_solver::path::{ArcLength, Dissipation, LoadFactor, LoadedDisplacement, Pa
 use fe_solver::secant::SecantAnderson;
 
 use super::Scenario;
-use crate::follow::{Path, follow};
+use crate::follow::{self, Path};
 
 /// A driver with a path constraint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,11 +59,7 @@ impl Method {
     pub(super) fn follow(self, scenario: &Scenario, coarse: f64) -> Result<Path, SolverError> {
         let (model, conditions) = (scenario.scene)();
         let steps = scenario.steps;
-        let control = |length: f64| StepControl {
-            criterion: scenario.criterion,
-            shortest: coarse * length / 1024.0,
-            ..StepControl::new(coarse * length, 1e6)
-        };
+        let control = |length: f64| follow::steps(coarse * length, scenario.criterion);
         let newton = |constraint: Box<dyn PathConstraint>| {
             NewtonRaphson::with_constraint(NewtonSettings::default(), constraint)
         };
@@ -99,6 +95,6 @@ impl Method {
                 ]
             }
         };
-        follow((&model, conditions), legs, scenario.end)
+        follow::follow((&model, conditions), legs, follow::gone)
     }
 }

@@ -12,7 +12,7 @@ mod scenario;
 pub use chart::chart;
 pub use figures::{Figure, Target};
 pub use method::Method;
-pub use scenario::{SCENARIOS, Scenario};
+pub use scenario::{BAR_1000, BAR_2000, SCENARIOS, STRIP, Scenario};
 
 use fe_solver::error::SolverError;
 use fe_solver::stage::Counters;
@@ -74,6 +74,9 @@ impl Case {
 }
 
 impl Outcome {
+    /// All of them, from the best to the worst.
+    pub const ALL: [Self; 4] = [Self::Correct, Self::Stopped, Self::Reported, Self::Silent];
+
     /// In words.
     pub const fn label(self) -> &'static str {
         match self {
