@@ -81,6 +81,30 @@ impl StateStore {
         self.base.copy_from_slice(&self.trial);
     }
 
+    /// History variables that the evaluations read, where they differ from the committed ones (indices in
+    /// [`Self::all_committed`]): what has been latched or passed through since the last accepted step.
+    pub fn base_changes(&self) -> Vec<(u32, f64)> {
+        let pairs = self.base.iter().zip(&self.committed).enumerate();
+        pairs
+            .filter(|(_, (base, committed))| base.to_bits() != committed.to_bits())
+            .map(|(i, (base, _))| (i as u32, *base))
+            .collect()
+    }
+
+    /// Makes the committed state with `changes` the base of the next evaluations, see [`Self::base_changes`].
+    /// Returns whether every index is one of this store; if not, nothing is changed.
+    pub fn set_base(&mut self, changes: &[(u32, f64)]) -> bool {
+        let n = self.committed.len();
+        if changes.iter().any(|&(i, _)| i as usize >= n) {
+            return false;
+        }
+        self.roll_back();
+        for &(i, value) in changes {
+            self.base[i as usize] = value;
+        }
+        true
+    }
+
     /// Accepts the trial state.
     pub fn commit(&mut self) {
         self.committed.copy_from_slice(&self.trial);

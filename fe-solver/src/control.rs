@@ -2,6 +2,7 @@
 
 use crate::driver::{Attempt, Driver, Request};
 use crate::error::SolverError;
+use crate::journal::Entry;
 use crate::recorder::{Continue, IterationRecord, Recorder, StepView};
 use crate::stage::Stage;
 
@@ -113,6 +114,7 @@ impl StepControl {
         let mut step = 1;
         let mut attempts = 0;
         let mut flagged = 0;
+        let mut heard = Heard::default();
         loop {
             let remaining = self.end - progress;
             let longest = self.longest.max(self.longest_share * progress);
@@ -125,6 +127,18 @@ impl StepControl {
             } else {
                 length.min(remaining)
             };
+            if let Some(entry) = recorder.recall()? {
+                length = entry.length;
+                let done = Self::replay(stage, recorder, step, entry)?;
+                flagged = done.flagged(flagged);
+                if let Continue::Stop(reason) = done.verdict {
+                    return Ok(reason);
+                }
+                length = self.next_length(length, longest, &done);
+                progress += done.taken;
+                step += 1;
+                continue;
+            }
             attempts += 1;
             let shorter = (self.cut * this).max(self.shortest);
             let can_shorten = 0.5 * this >= self.shortest;
@@ -134,7 +148,7 @@ impl StepControl {
                 length: this,
                 last_resort: !can_shorten,
             };
-            let attempt = self.attempt(stage, driver, recorder, plan);
+            let attempt = self.attempt(stage, driver, (recorder, &mut heard), plan);
             match attempt {
                 Ok(attempt)
                     if attempt.converged
@@ -142,17 +156,23 @@ impl StepControl {
                             && self.on_failure == OnFailure::Flag
                             && flagged < MAX_FLAGGED) =>
                 {
-                    flagged = if attempt.converged { 0 } else { flagged + 1 };
-                    let easy = attempt.converged && attempt.iterations < self.easy;
-                    let verdict = Self::accept(stage, recorder, attempt, step, attempts)?;
-                    if let Continue::Stop(reason) = verdict {
+                    let entry = Entry {
+                        length,
+                        taken: this,
+                        attempts,
+                        attempt,
+                        base: stage.state().base_changes(),
+                        counters: *stage.counters(),
+                        load: 0.0,
+                        iterations: std::mem::take(&mut heard.iterations),
+                        notes: std::mem::take(&mut heard.notes),
+                    };
+                    let done = Self::accept(stage, recorder, step, entry, Origin::Solved)?;
+                    flagged = done.flagged(flagged);
+                    if let Continue::Stop(reason) = done.verdict {
                         return Ok(reason);
                     }
-                    length = if easy {
-                        (this * self.growth).max(length).min(longest)
-                    } else {
-                        this.min(length)
-                    };
+                    length = self.next_length(length, longest, &done);
                     progress += this;
                     step += 1;
                     attempts = 0;
@@ -190,7 +210,7 @@ impl StepControl {
         &self,
         stage: &mut Stage<'_>,
         driver: &mut dyn Driver,
-        recorder: &mut dyn Recorder,
+        (recorder, heard): (&mut dyn Recorder, &mut Heard),
         plan: Plan,
     ) -> Result<Attempt, SolverError> {
         let mut iteration = 0;
@@ -203,7 +223,7 @@ impl StepControl {
                 last_resort: plan.last_resort,
             },
             &mut |residual, line_search| {
-                recorder.iteration(&IterationRecord {
+                let record = IterationRecord {
                     step: plan.step,
                     attempt: plan.attempt,
                     iteration,
@@ -211,7 +231,9 @@ impl StepControl {
                     residual: residual.relative,
                     criterion: self.criterion,
                     line_search,
-                })?;
+                };
+                recorder.iteration(&record)?;
+                heard.iterations.push(record);
                 iteration += 1;
                 Ok(())
             },
@@ -219,46 +241,126 @@ impl StepControl {
         stage.counters_mut().iterations += iteration;
         for note in driver.notes() {
             recorder.note(plan.step, &note)?;
+            heard.notes.push(note);
         }
         result
+    }
+
+    /// Length aimed at after an accepted step.
+    fn next_length(&self, length: f64, longest: f64, done: &Done) -> f64 {
+        if done.converged && done.iterations < self.easy {
+            (done.taken * self.growth).max(length).min(longest)
+        } else {
+            done.taken.min(length)
+        }
     }
 
     /// Measures the accepted state with the inviscid law, commits it and records it.
     fn accept(
         stage: &mut Stage<'_>,
         recorder: &mut dyn Recorder,
-        attempt: Attempt,
         step: usize,
-        attempts: usize,
-    ) -> Result<Continue, SolverError> {
-        let Attempt {
-            displacement,
-            lambda,
-            converged,
-            iterations,
-            residual,
-            held,
-        } = attempt;
-        let increment = lambda - stage.lambda();
-        let negative_pivots = stage.stability(&displacement, lambda)?;
+        mut entry: Entry,
+        origin: Origin,
+    ) -> Result<Done, SolverError> {
+        let (u, lambda) = (&entry.attempt.displacement, entry.attempt.lambda);
+        let negative_pivots = stage.stability(u, lambda)?;
         let load = stage.load();
-        let work_conjugate_load = stage.work_conjugate_load(&displacement, lambda);
-        stage.commit(displacement, lambda, held);
+        match origin {
+            Origin::Solved => {
+                entry.load = load;
+                recorder.keep(&entry)?;
+            }
+            Origin::Recalled if load.to_bits() != entry.load.to_bits() => {
+                return Err(SolverError::Journal {
+                    step,
+                    what: format!("load {load} for {}", entry.load),
+                });
+            }
+            Origin::Recalled => {}
+        }
+        let Entry {
+            taken,
+            attempts,
+            attempt,
+            ..
+        } = entry;
+        let increment = lambda - stage.lambda();
+        let work_conjugate_load = stage.work_conjugate_load(&attempt.displacement, lambda);
+        stage.commit(attempt.displacement, lambda, attempt.held);
         let view = StepView {
             step,
             lambda,
             increment,
             attempts,
-            iterations,
-            residual: residual.relative,
-            held,
+            iterations: attempt.iterations,
+            residual: attempt.residual.relative,
+            held: attempt.held,
             load,
             work_conjugate_load,
-            flagged: !converged,
+            flagged: !attempt.converged,
             negative_pivots,
             stage,
         };
-        Ok(recorder.step(&view)?)
+        Ok(Done {
+            verdict: recorder.step(&view)?,
+            taken,
+            converged: attempt.converged,
+            iterations: attempt.iterations,
+        })
+    }
+
+    /// Accepts a step of an earlier run again.
+    fn replay(
+        stage: &mut Stage<'_>,
+        recorder: &mut dyn Recorder,
+        step: usize,
+        entry: Entry,
+    ) -> Result<Done, SolverError> {
+        let same = entry.attempt.displacement.len() == stage.displacement().len();
+        if !(same && stage.set_base(&entry.base)) {
+            return Err(SolverError::Journal {
+                step,
+                what: "number of unknowns".into(),
+            });
+        }
+        for record in &entry.iterations {
+            recorder.iteration(record)?;
+        }
+        for note in &entry.notes {
+            recorder.note(step, note)?;
+        }
+        *stage.counters_mut() = entry.counters;
+        Self::accept(stage, recorder, step, entry, Origin::Recalled)
+    }
+}
+
+/// Where an accepted step comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Origin {
+    Solved,
+    Recalled,
+}
+
+/// What recorders have been told since the last accepted step.
+#[derive(Debug, Default)]
+struct Heard {
+    iterations: Vec<IterationRecord>,
+    notes: Vec<String>,
+}
+
+/// An accepted step, as far as the next one depends on it.
+struct Done {
+    verdict: Continue,
+    taken: f64,
+    converged: bool,
+    iterations: usize,
+}
+
+impl Done {
+    /// Steps in a row that missed the criterion, this one included.
+    const fn flagged(&self, before: usize) -> usize {
+        if self.converged { 0 } else { before + 1 }
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::fmt::Debug;
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::SolverError;
 use crate::stage::{Residual, Stage};
 
@@ -20,7 +22,7 @@ pub struct Request {
 }
 
 /// Result of one attempt at a step. The trial state of the stage is that of `displacement`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Attempt {
     /// Displacement of all DOFs (mm); the best iterate if the attempt did not converge.
     pub displacement: Vec<f64>,

@@ -54,6 +54,17 @@ pub enum SolverError {
     /// A recorder could not write.
     #[error("cannot write results: {0}")]
     Output(#[from] std::io::Error),
+    /// A journal does not belong to this model, these settings or this machine.
+    #[error(
+        "step {step} of the earlier run does not lead where it led then ({what}): it belongs to another model, \
+         version or machine; run it again from the start"
+    )]
+    Journal {
+        /// Step, counted from 1.
+        step: usize,
+        /// What differs.
+        what: String,
+    },
     /// A setting is impossible.
     #[error("{what} = {value} is outside {allowed}")]
     Setting {

@@ -1,9 +1,12 @@
 //! What an analysis tells the outside while it runs.
 
+use serde::{Deserialize, Serialize};
+
+use crate::journal::Entry;
 use crate::stage::Stage;
 
 /// One iteration.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct IterationRecord {
     /// Step under way, counted from 1.
     pub step: usize,
@@ -76,6 +79,25 @@ pub trait Recorder {
     ///
     /// An output error ends the analysis.
     fn note(&mut self, _step: usize, _text: &str) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    /// The next step of an earlier run, to be accepted again without solving it; none where that run ended, or without
+    /// one.
+    ///
+    /// # Errors
+    ///
+    /// An error ends the analysis.
+    fn recall(&mut self) -> std::io::Result<Option<Entry>> {
+        Ok(None)
+    }
+
+    /// A step is about to be accepted for the first time; with this it can be [recalled](Self::recall).
+    ///
+    /// # Errors
+    ///
+    /// An output error ends the analysis.
+    fn keep(&mut self, _entry: &Entry) -> std::io::Result<()> {
         Ok(())
     }
 

@@ -3,6 +3,8 @@
 use fe_core::element::EvaluationContext;
 use fe_core::material::Operator;
 
+use serde::{Deserialize, Serialize};
+
 use super::Stage;
 use crate::error::SolverError;
 
@@ -11,7 +13,7 @@ use crate::error::SolverError;
 pub const LEAST_SCALE: f64 = 1e-3;
 
 /// Size of a residual.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Residual {
     /// |f_ext - f_int| on the free equations over the norm of the reactions (2-norms), which counts as [`LEAST_SCALE`] of
     /// the largest of all accepted steps where it is less, and as 1 N where there has been none. Infinite if a

@@ -4,6 +4,8 @@ mod measures;
 
 use std::time::{Duration, Instant};
 
+use serde::{Deserialize, Serialize};
+
 use fe_core::assembly::{Assembled, Assembler};
 use fe_core::element::EvaluationContext;
 use fe_core::material::Operator;
@@ -16,7 +18,7 @@ use crate::linear::{DirectSolver, LinearError, LinearSolver};
 pub use measures::{LEAST_SCALE, Residual};
 
 /// Deterministic counts of the work done.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counters {
     /// Accepted steps.
     pub steps: usize,
@@ -282,6 +284,11 @@ impl<'m> Stage<'m> {
     /// Makes the trial state the history of the next evaluations without accepting it.
     pub fn advance(&mut self) {
         self.state.advance();
+    }
+
+    /// Makes the accepted state with `changes` the history of the next evaluations. Returns whether they fit.
+    pub(crate) fn set_base(&mut self, changes: &[(u32, f64)]) -> bool {
+        self.state.set_base(changes)
     }
 
     /// Forgets the trial state.

@@ -1,0 +1,38 @@
+//! Accepted steps as a journal from which a run can be continued.
+//!
+//! What a step leaves behind (history variables, reactions, tangent and its factor) follows from the displacement it
+//! accepts and from the history variables its last evaluation started from. An [`Entry`] holds these, what the
+//! step control goes on with, and what recorders were told. Entries accepted again in order, without iterations,
+//! bring a stage to the same state to the last bit; only then does the driver take over.
+//!
+//! Drivers must keep nothing of their own from step to step; [`Automatic`](crate::automatic::Automatic) does, and
+//! cannot be continued.
+
+use serde::{Deserialize, Serialize};
+
+use crate::driver::Attempt;
+use crate::recorder::IterationRecord;
+use crate::stage::Counters;
+
+/// One accepted step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// Length that the step control aimed at, in units of the load factor.
+    pub length: f64,
+    /// Length of the step.
+    pub taken: f64,
+    /// Attempts, the successful one included.
+    pub attempts: usize,
+    /// The successful one.
+    pub attempt: Attempt,
+    /// History variables of the last evaluation where they differ from those of the step before.
+    pub base: Vec<(u32, f64)>,
+    /// Work done before the step was accepted.
+    pub counters: Counters,
+    /// Load of the accepted state, as a check.
+    pub load: f64,
+    /// Iterations of all attempts.
+    pub iterations: Vec<IterationRecord>,
+    /// What the driver said, attempt by attempt.
+    pub notes: Vec<String>,
+}
