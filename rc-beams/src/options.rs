@@ -59,11 +59,18 @@ pub struct RunOptions {
     #[arg(long = "until", value_name = "MM", value_parser = deflection, allow_negative_numbers = true)]
     pub until_mm: Option<f64>,
 
+    /// Continue runs that were interrupted, from their last accepted step; beams already done are left as they are
+    #[arg(long)]
+    #[serde(skip)]
+    pub resume: bool,
+
     /// Threads; without it, one per core
+    #[serde(skip)]
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub threads: Option<u16>,
 
     /// Folder of the results, made if missing
+    #[serde(skip)]
     #[arg(short, long, value_name = "DIR", default_value = "results")]
     pub output: PathBuf,
 

@@ -9,6 +9,7 @@ use fe_core::state::StateStore;
 use fe_solver::capacity::PathPoint;
 use fe_solver::control::{OnFailure, StepControl};
 use fe_solver::error::SolverError;
+use fe_solver::journal::Entry;
 use fe_solver::recorder::{Continue, IterationRecord, StepView};
 use fe_solver::stage::{Counters, PhaseTimes, Stage};
 
@@ -122,6 +123,24 @@ pub trait Observer {
     ///
     /// An output error ends the run.
     fn iteration(&mut self, record: &IterationRecord) -> io::Result<()>;
+
+    /// The next step of an earlier run, see [`Recorder::recall`](fe_solver::recorder::Recorder::recall).
+    ///
+    /// # Errors
+    ///
+    /// An error ends the run.
+    fn recall(&mut self) -> io::Result<Option<Entry>> {
+        Ok(None)
+    }
+
+    /// A step of any stage is about to be accepted for the first time.
+    ///
+    /// # Errors
+    ///
+    /// An output error ends the run.
+    fn keep(&mut self, _entry: &Entry) -> io::Result<()> {
+        Ok(())
+    }
 
     /// A step under load was accepted, counted through all stages. The answer tells whether to go on.
     ///

@@ -3,6 +3,7 @@
 use std::io;
 
 use fe_solver::capacity::{CAPACITY_FALL, PathPoint};
+use fe_solver::journal::Entry;
 use fe_solver::recorder::{Continue, IterationRecord, Recorder, StepView};
 
 use super::march::Until;
@@ -47,6 +48,14 @@ pub(super) struct WeightRecorder<'a> {
 }
 
 impl Recorder for WeightRecorder<'_> {
+    fn recall(&mut self) -> io::Result<Option<Entry>> {
+        self.observer.recall()
+    }
+
+    fn keep(&mut self, entry: &Entry) -> io::Result<()> {
+        self.observer.keep(entry)
+    }
+
     fn step(&mut self, view: &StepView<'_>) -> io::Result<Continue> {
         let stage = view.stage;
         *self.origin = Origin {
@@ -94,6 +103,14 @@ impl<'a> LoadRecorder<'a> {
 }
 
 impl Recorder for LoadRecorder<'_> {
+    fn recall(&mut self) -> io::Result<Option<Entry>> {
+        self.observer.recall()
+    }
+
+    fn keep(&mut self, entry: &Entry) -> io::Result<()> {
+        self.observer.keep(entry)
+    }
+
     fn iteration(&mut self, record: &IterationRecord) -> io::Result<()> {
         self.observer.iteration(&IterationRecord {
             step: self.steps_before + record.step,

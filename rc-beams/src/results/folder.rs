@@ -1,17 +1,20 @@
 //! The folder that holds the results of one beam.
 
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile};
 
 use super::error::ResultsError;
+use super::growing::Growing;
 use crate::output::{self, OutputError};
 
 /// Files written at the end of a run or not by every run; those of an earlier run would contradict the
 /// tables of this one.
-const NOT_STARTED_ANEW: [&str; 10] = [
+const NOT_STARTED_ANEW: [&str; 12] = [
+    "checkpoint.json",
+    "checkpoint.bin",
     "summary.json",
     "curve.svg",
     "curve.png",
@@ -28,6 +31,8 @@ const NOT_STARTED_ANEW: [&str; 10] = [
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Folder {
     path: PathBuf,
+    /// Whether the run in it is continued.
+    resumed: bool,
 }
 
 impl Folder {
@@ -40,10 +45,11 @@ impl Folder {
     pub fn create(root: &Path, name: &str) -> Result<Self, ResultsError> {
         let folder = Self {
             path: root.join(name),
+            resumed: false,
         };
         output::prepare(&folder.path)?;
         for file in NOT_STARTED_ANEW {
-            remove_if_there(&folder.path.join(file)).map_err(|e| folder.error(file, e))?;
+            folder.remove(file)?;
         }
         for entry in fs::read_dir(&folder.path).map_err(|e| folder.error("", e))? {
             let name = entry.map_err(|e| folder.error("", e))?.file_name();
@@ -62,7 +68,22 @@ impl Folder {
     /// [`ResultsError::Output`] when it cannot be written.
     pub fn open(path: &Path) -> Result<Self, ResultsError> {
         output::prepare(path)?;
-        Ok(Self { path: path.into() })
+        Ok(Self {
+            path: path.into(),
+            resumed: false,
+        })
+    }
+
+    /// A folder whose run is continued: [`Self::start`] keeps what its files hold.
+    ///
+    /// # Errors
+    ///
+    /// [`ResultsError::Output`] when it cannot be written.
+    pub fn resume(path: &Path) -> Result<Self, ResultsError> {
+        Ok(Self {
+            resumed: true,
+            ..Self::open(path)?
+        })
     }
 
     /// Where it is.
@@ -70,13 +91,30 @@ impl Folder {
         &self.path
     }
 
-    /// Opens a file that grows during the run; an older one is emptied.
+    /// Opens a file that grows during the run; an older one is emptied, unless the run is continued.
     ///
     /// # Errors
     ///
     /// [`ResultsError::Output`].
-    pub fn start(&self, name: &str) -> Result<File, ResultsError> {
-        File::create(self.path.join(name)).map_err(|e| self.error(name, e))
+    pub fn start(&self, name: &str) -> Result<Growing, ResultsError> {
+        let path = self.path.join(name);
+        let file = if self.resumed {
+            let mut options = OpenOptions::new();
+            options.read(true).write(true).create(true).truncate(false);
+            options.open(path).and_then(Growing::continued)
+        } else {
+            File::create(path).map(Growing::empty)
+        };
+        file.map_err(|e| self.error(name, e))
+    }
+
+    /// Removes a file, if it is there.
+    ///
+    /// # Errors
+    ///
+    /// [`ResultsError::Output`].
+    pub fn remove(&self, name: &str) -> Result<(), ResultsError> {
+        remove_if_there(&self.path.join(name)).map_err(|e| self.error(name, e))
     }
 
     /// Writes a file as a whole: readers see the old content or the new, never a part.
@@ -117,7 +155,7 @@ impl Folder {
     }
 
     /// What a file of the folder suffers from.
-    fn error(&self, name: &str, source: io::Error) -> ResultsError {
+    pub(super) fn error(&self, name: &str, source: io::Error) -> ResultsError {
         let path = self.path.join(name);
         OutputError { path, source }.into()
     }

@@ -5,6 +5,7 @@
 //! step at any time, and `curve.svg`, `curve.png`, `crack.svg`, `slip.svg`, `sheet.svg`, `sheet_map.csv` and
 //! `summary.json`, each whole or absent. A [`report`] puts the folders of several beams side by side.
 
+pub mod checkpoint;
 pub mod crack;
 pub mod curve;
 pub mod drawing;
@@ -12,6 +13,7 @@ pub mod error;
 pub mod events;
 pub mod evidence;
 pub mod folder;
+pub mod growing;
 pub mod hash;
 pub mod history;
 pub mod interrupt;

@@ -1,6 +1,5 @@
 //! A CSV file that grows.
 
-use std::fs::File;
 use std::io;
 use std::path::PathBuf;
 
@@ -9,12 +8,13 @@ use csv::Writer;
 use crate::output::OutputError;
 use crate::results::error::ResultsError;
 use crate::results::folder::Folder;
+use crate::results::growing::Growing;
 
 /// A CSV file with its path.
 #[derive(Debug)]
 pub(super) struct Table {
     path: PathBuf,
-    writer: Writer<File>,
+    writer: Writer<Growing>,
 }
 
 impl Table {
@@ -43,6 +43,13 @@ impl Table {
     pub(super) fn flush(&mut self) -> Result<(), ResultsError> {
         let flushed = self.writer.flush();
         flushed.map_err(|e| self.error(e))
+    }
+
+    /// Ends what an earlier run left, see [`Growing::settle`].
+    pub(super) fn settle(&mut self) -> Result<(), ResultsError> {
+        self.flush()?;
+        let settled = self.writer.get_ref().settle();
+        settled.map_err(|e| self.error(e))
     }
 
     fn error(&self, source: io::Error) -> ResultsError {

@@ -5,6 +5,7 @@ use fe_core::model::ModelError;
 use crate::analysis::AnalysisError;
 use crate::build::BuildError;
 use crate::exit::Exit;
+use crate::results::checkpoint::CheckpointError;
 use crate::results::error::ResultsError;
 
 /// What stops the program before or between runs.
@@ -23,6 +24,10 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Output(#[from] ResultsError),
+    /// A run cannot be continued.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Resume(#[from] CheckpointError),
     /// The threads cannot be started.
     #[error("cannot start the threads")]
     Threads(#[from] rayon::ThreadPoolBuildError),
@@ -47,7 +52,7 @@ impl RunError {
                 BuildError::TooFewElements { .. } => Exit::Usage,
                 _ => Exit::BadInput,
             },
-            Self::Output(_) => Exit::File,
+            Self::Output(_) | Self::Resume(_) => Exit::File,
             Self::Threads(_) | Self::Solver { .. } | Self::Model(_) => Exit::StoppedEarly,
         }
     }

@@ -8,6 +8,7 @@ mod plan;
 mod pull_out;
 mod queue;
 mod recording;
+mod resume;
 mod sheets;
 mod watch;
 
@@ -21,6 +22,7 @@ use crate::build::{Beam, ModelSettings};
 use crate::exit::Exit;
 use crate::options::{Bond, RunOptions};
 use crate::output;
+use crate::results::checkpoint::{Checkpoint, CheckpointError};
 use crate::results::error::ResultsError;
 use crate::results::evidence::{Layout, Snapshot};
 use crate::results::folder::Folder;
@@ -32,8 +34,9 @@ use crate::results::sheets::{MapState, SheetDrop};
 use crate::results::summary::{Figures, StepBand, Summary, WallTime, Work};
 use crate::spec::Specimen;
 pub use error::RunError;
-use plan::{driver, settings, setup, stepping};
+use plan::{driver, input_hash, settings, setup, stepping};
 use recording::Recording;
+use resume::Beginning;
 use watch::Watch;
 
 /// Runs the specimens, as many at once as there are threads. All models are built and all folders tried before the
@@ -51,6 +54,9 @@ pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, Run
     let folders = specimens.iter().map(|s| options.output.join(&s.name));
     for folder in folders.filter(|folder| folder.exists()) {
         output::prepare(&folder).map_err(ResultsError::from)?;
+    }
+    for specimen in specimens {
+        resume::check(&specimen.name, &input_hash(specimen, options), options)?;
     }
     let workers = queue::workers(specimens.len(), options.threads.map_or(0, usize::from))?;
     let board = Board::new();
@@ -75,7 +81,14 @@ fn run(
     let resources = Resources::start(threads);
     let settings = settings(options, specimen);
     let beam = build(specimen, &settings)?;
-    let folder = Folder::create(&options.output, &specimen.name)?;
+    let hash = input_hash(specimen, options);
+    let (folder, checkpoint) = match resume::begin(&specimen.name, &hash, options)? {
+        Beginning::From(folder, checkpoint) => (folder, checkpoint),
+        Beginning::Done => {
+            board.print_result(&format!("{:<8}  done before", specimen.name));
+            return Ok(Exit::Done);
+        }
+    };
     let stepping = stepping(specimen, options);
     let bond_error = match &beam.sheets {
         Some(sheets) => pull_out::error(&beam.model, sheets)?,
@@ -86,7 +99,7 @@ fn run(
     let mut recording = Recording::start(
         (board, &specimen.name),
         (&beam, &layout),
-        &folder,
+        (&folder, checkpoint),
         options.fields,
         (stepping.until_mm, stepping.criterion),
         interrupt,
@@ -106,13 +119,21 @@ fn run(
         driver.as_mut(),
         &mut recording,
     );
+    let failure = match &done {
+        Ok(outcome) => outcome.stop.as_ref().err(),
+        Err(error) => Some(error),
+    };
+    let unfinished = recording.is_resuming() && failure.is_some();
+    if let Some(error) = failure.filter(|_| unfinished && !interrupt.is_set()) {
+        return Err(CheckpointError::of(&folder, error.to_string()).into());
+    }
     let outcome = match done {
-        Ok(outcome) => outcome,
-        Err(_) if interrupt.is_set() => {
+        _ if interrupt.is_set() && (unfinished || done.is_err()) => {
             let kept = kept("stopped by the user", Exit::Interrupted, &folder);
             board.print_result(&format!("{:<8}  {kept}", specimen.name));
             return Ok(Exit::Interrupted);
         }
+        Ok(outcome) => outcome,
         Err(error) => {
             return Err(RunError::Solver {
                 specimen: specimen.name.clone(),
@@ -155,7 +176,12 @@ fn run(
             verdict,
         ))
     });
+    // Only a run that was stopped from outside can go on.
+    let over = matches!(exit, Exit::Done | Exit::StoppedEarly);
     let Some((figures, capacity, verdict)) = figures else {
+        if over {
+            Checkpoint::remove(&folder)?;
+        }
         board.print_result(&format!("{:<8}  {kept}", specimen.name));
         return Ok(exit);
     };
@@ -219,6 +245,9 @@ fn run(
         max_rss_mb: resources.max_rss_mb(),
     };
     summary.write(&folder)?;
+    if over && !interrupt.is_set() {
+        Checkpoint::remove(&folder)?;
+    }
     board.print_result(&match exit {
         Exit::Done => summary.line(),
         _ => format!("{}  {kept}", summary.line()),

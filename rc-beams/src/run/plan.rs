@@ -81,7 +81,6 @@ pub(super) fn setup(
     driver: &str,
 ) -> Setup {
     let [nx, ny, nz] = settings.mesh;
-    let text = |value: Result<String, serde_json::Error>| value.unwrap_or_default();
     Setup {
         specimen: specimen.name.clone(),
         preset: options::name(&settings.preset),
@@ -95,9 +94,15 @@ pub(super) fn setup(
         elements: beam.model.elements().len(),
         dofs: beam.model.dofs().len(),
         version: env!("CARGO_PKG_VERSION").into(),
-        input_hash: fingerprint(&[
-            &text(serde_json::to_string(specimen)),
-            &text(serde_json::to_string(options)),
-        ]),
+        input_hash: input_hash(specimen, options),
     }
+}
+
+/// Fingerprint of what the results depend on.
+pub(super) fn input_hash(specimen: &Specimen, options: &RunOptions) -> String {
+    let text = |value: Result<String, serde_json::Error>| value.unwrap_or_default();
+    fingerprint(&[
+        &text(serde_json::to_string(specimen)),
+        &text(serde_json::to_string(options)),
+    ])
 }

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use fe_core::model::Model;
 use fe_core::output::FieldSeries;
+use fe_solver::journal::Entry;
 use fe_solver::recorder::{Continue, IterationRecord, StepView};
 
 use super::watch::Watch;
@@ -12,6 +13,7 @@ use crate::analysis::{Observer, Reading, Snapshot};
 use crate::build::{Beam, Gauge};
 use crate::options::Fields;
 use crate::output::OutputError;
+use crate::results::checkpoint::Checkpoint;
 use crate::results::error::ResultsError;
 use crate::results::evidence::Layout;
 use crate::results::folder::Folder;
@@ -23,11 +25,15 @@ use crate::results::progress::{Board, Progress, Status};
 pub(super) struct Recording<'a> {
     beam: &'a Beam,
     folder: Folder,
+    checkpoint: Checkpoint,
+    /// Whether steps of an earlier run are accepted again.
+    resuming: bool,
     history: History,
     gauges: Vec<Gauge>,
     watch: Watch,
-    fields: Option<FieldSeries>,
-    every_step: bool,
+    fields: Fields,
+    /// Where every step is written.
+    series: Option<FieldSeries>,
     progress: Progress,
     interrupt: &'a Interrupt,
     criterion: f64,
@@ -38,7 +44,7 @@ impl<'a> Recording<'a> {
     pub(super) fn start(
         (board, name): (&Board, &str),
         (beam, layout): (&'a Beam, &Layout),
-        folder: &Folder,
+        (folder, checkpoint): (&Folder, Checkpoint),
         fields: Fields,
         plan: (f64, f64),
         interrupt: &'a Interrupt,
@@ -50,19 +56,21 @@ impl<'a> Recording<'a> {
             .map(|s| format!("reaction_x{}_kn", s.x))
             .collect();
         let gauges: Vec<String> = beam.gauges.iter().map(|g| g.name.clone()).collect();
-        let fields_series = match fields {
-            Fields::None => None,
-            Fields::Last | Fields::All => Some(series(folder)?),
-        };
+        // The fields of single states are written in the end; until then those of an earlier run stay.
+        let series = (fields == Fields::All)
+            .then(|| series(folder))
+            .transpose()?;
         let (until_mm, criterion) = plan;
         Ok(Self {
             beam,
             folder: folder.clone(),
+            resuming: checkpoint.records() > 0,
+            checkpoint,
             history: History::create(folder, &supports, &gauges)?,
             gauges: beam.gauges.clone(),
             watch: Watch::start(beam, layout, folder)?,
-            fields: fields_series,
-            every_step: fields == Fields::All,
+            fields,
+            series,
             progress: Progress::start(board, name, until_mm),
             interrupt,
             criterion,
@@ -75,15 +83,21 @@ impl<'a> Recording<'a> {
         self.progress.note(text);
     }
 
+    /// Whether steps of an earlier run are still being accepted again.
+    pub(super) const fn is_resuming(&self) -> bool {
+        self.resuming
+    }
+
     /// Ends; writes the fields of the given states of a model, unless every step has been written. Returns
     /// the evidence gathered and the wall time spent writing.
     pub(super) fn finish(
-        mut self,
+        self,
         model: &Model,
         states: &[&Snapshot],
     ) -> Result<(Watch, Duration), ResultsError> {
         let begin = Instant::now();
-        if let Some(series) = self.fields.as_mut().filter(|_| !self.every_step) {
+        if self.fields == Fields::Last {
+            let mut series = series(&self.folder)?;
             for s in states {
                 series
                     .record(s.deflection_mm, model, &s.displacement, &s.state)
@@ -130,14 +144,16 @@ impl<'a> Recording<'a> {
             .collect::<Result<Vec<f64>, _>>()
             .map_err(io::Error::other)?;
         self.history.step(&row, &strains)?;
-        if let Some(series) = self.fields.as_mut().filter(|_| self.every_step) {
+        if let Some(series) = &mut self.series {
             let u = stage.displacement();
             series
                 .record(reading.deflection_mm, model, u, stage.state())
                 .map_err(io::Error::other)?;
         }
         for event in self.watch.step(self.beam, stage, step, reading)? {
-            self.progress.note(&event.to_string());
+            if !self.resuming {
+                self.progress.note(&event.to_string());
+            }
         }
         self.progress.step(Status {
             step,
@@ -172,6 +188,26 @@ impl Observer for Recording<'_> {
         self.interrupt.check()?;
         self.progress.iteration(record.step, record.iteration);
         Ok(self.history.iteration(record)?)
+    }
+
+    fn recall(&mut self) -> io::Result<Option<Entry>> {
+        let entry = self.checkpoint.next()?;
+        if entry.is_none() && self.resuming {
+            self.resuming = false;
+            self.checkpoint.settle()?;
+            self.history.settle()?;
+            self.watch.settle()?;
+            let steps = self.checkpoint.records() - 1;
+            self.progress.note(&format!("resumed after step {steps}"));
+        }
+        Ok(entry)
+    }
+
+    fn keep(&mut self, entry: &Entry) -> io::Result<()> {
+        let begin = Instant::now();
+        self.checkpoint.add(entry)?;
+        self.spent += begin.elapsed();
+        Ok(())
     }
 
     fn step(

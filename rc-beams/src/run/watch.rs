@@ -107,6 +107,12 @@ impl Watch {
         self.ledger.rebase(u);
     }
 
+    /// Ends what an earlier run left in the tables.
+    pub(super) fn settle(&mut self) -> Result<(), ResultsError> {
+        self.log.settle()?;
+        self.table.as_mut().map_or(Ok(()), SheetTable::settle)
+    }
+
     /// Measures of the sheets, one row per step under load.
     pub(super) fn rows(&self) -> &[SheetRow] {
         &self.rows

@@ -42,6 +42,15 @@ impl EventLog {
         &self.events
     }
 
+    /// Ends what an earlier run left: from here on rows are new.
+    ///
+    /// # Errors
+    ///
+    /// [`ResultsError::Output`].
+    pub fn settle(&mut self) -> Result<(), ResultsError> {
+        self.table.settle()
+    }
+
     /// Takes the evidence of an accepted step; returns and writes what happens for the first time.
     ///
     /// # Errors

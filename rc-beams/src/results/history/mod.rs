@@ -173,6 +173,22 @@ impl History {
         self.flush()
     }
 
+    /// Ends what an earlier run left: from here on rows are new.
+    ///
+    /// # Errors
+    ///
+    /// [`ResultsError::Output`].
+    pub fn settle(&mut self) -> Result<(), ResultsError> {
+        let Self {
+            steps,
+            gauges,
+            iterations,
+        } = self;
+        [iterations, gauges, steps]
+            .into_iter()
+            .try_for_each(Table::settle)
+    }
+
     /// Hands everything so far to the system.
     ///
     /// # Errors

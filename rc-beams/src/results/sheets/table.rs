@@ -44,6 +44,15 @@ impl SheetTable {
         })
     }
 
+    /// Ends what an earlier run left: from here on rows are new.
+    ///
+    /// # Errors
+    ///
+    /// [`ResultsError::Output`].
+    pub fn settle(&mut self) -> Result<(), ResultsError> {
+        self.table.settle()
+    }
+
     /// Adds an accepted step.
     ///
     /// # Errors

@@ -1,0 +1,64 @@
+//! Where a run begins: at the start, after the last step of an interrupted one, or not at all.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::RunError;
+use crate::options::RunOptions;
+use crate::results::checkpoint::{Checkpoint, CheckpointError};
+use crate::results::folder::Folder;
+
+/// Where a run begins.
+pub(super) enum Beginning {
+    /// With these records, if any.
+    From(Folder, Checkpoint),
+    /// It has ended before.
+    Done,
+}
+
+/// Looks for what an earlier run of the same input has left; nothing is changed.
+///
+/// Returns nothing for a run from the start.
+fn earlier(folder: &Path, input_hash: &str) -> Result<Option<Beginning>, RunError> {
+    if Checkpoint::exists(folder) {
+        let folder = Folder::resume(folder)?;
+        let checkpoint = Checkpoint::read(&folder, input_hash)?;
+        return Ok(Some(Beginning::From(folder, checkpoint)));
+    }
+    let path = folder.join("summary.json");
+    let Ok(text) = fs::read(&path) else {
+        return Ok(None);
+    };
+    let summary: Option<Value> = serde_json::from_slice(&text).ok();
+    if summary.is_some_and(|s| s["input_hash"] == input_hash) {
+        return Ok(Some(Beginning::Done));
+    }
+    let reason = "it is damaged, or belongs to another specimen or other options".into();
+    Err(CheckpointError { path, reason }.into())
+}
+
+/// Refuses what cannot be continued, before anything is run.
+pub(super) fn check(name: &str, input_hash: &str, options: &RunOptions) -> Result<(), RunError> {
+    if options.resume {
+        earlier(&options.output.join(name), input_hash)?;
+    }
+    Ok(())
+}
+
+/// Where the run of a beam begins.
+pub(super) fn begin(
+    name: &str,
+    input_hash: &str,
+    options: &RunOptions,
+) -> Result<Beginning, RunError> {
+    if options.resume
+        && let Some(beginning) = earlier(&options.output.join(name), input_hash)?
+    {
+        return Ok(beginning);
+    }
+    let folder = Folder::create(&options.output, name)?;
+    let checkpoint = Checkpoint::start(&folder, input_hash)?;
+    Ok(Beginning::From(folder, checkpoint))
+}
