@@ -28,6 +28,7 @@
 //! - `f = internal force - external force` vanishes in equilibrium.
 
 pub mod assembly;
+pub mod check;
 pub mod dof;
 pub mod element;
 pub mod energy;

@@ -43,6 +43,43 @@ pub enum ModelError {
         /// Nodes there are.
         nodes: usize,
     },
+    /// A part of the model can move as a rigid body.
+    #[error(
+        "the part of {nodes} nodes with node {node} at {position:?} mm can {motion}: support it, or connect it to the rest"
+    )]
+    NotHeld {
+        /// First node of the part.
+        node: NodeId,
+        /// Position of that node (mm).
+        position: [f64; 3],
+        /// Nodes of the part.
+        nodes: usize,
+        /// What it can do.
+        motion: &'static str,
+    },
+    /// Two nodes at one place are not connected.
+    #[error(
+        "nodes {} and {} both lie at {position:?} mm and no element connects them: use one of them in both elements",
+        nodes[0], nodes[1]
+    )]
+    Seam {
+        /// The nodes.
+        nodes: [NodeId; 2],
+        /// Where they lie (mm).
+        position: [f64; 3],
+    },
+    /// A load or a prescribed displacement is not a number.
+    #[error("the {what} of {dof} of node {node} at {position:?} mm is not a finite number")]
+    NotFinite {
+        /// Kind of condition.
+        what: &'static str,
+        /// Node.
+        node: NodeId,
+        /// DOF.
+        dof: Dof,
+        /// Position of the node (mm).
+        position: [f64; 3],
+    },
     /// A node set is empty or does not exist.
     #[error("no node is in the set {set}; the mesh has {known}")]
     EmptySet {

@@ -78,7 +78,7 @@ impl Hex20 {
     ///
     /// # Errors
     ///
-    /// [`ElementError::Jacobian`] for an inverted or too distorted cell, [`ElementError::Input`] for a
+    /// [`ElementError::Folded`] or [`ElementError::Jacobian`] for an inverted or too distorted cell, [`ElementError::Input`] for a
     /// crack-band width that is not positive, [`ElementError::Material`] when the law refuses it.
     pub fn new(
         nodes: [NodeId; 20],
@@ -87,6 +87,18 @@ impl Hex20 {
         law: Arc<dyn Material<Solid>>,
         band: BandWidth,
     ) -> Result<Self, ElementError> {
+        // At two points per direction a fold can hide in a corner.
+        for (corner, xi) in hex20::NODES[..8].iter().enumerate() {
+            let (_, _, determinant) = hex20::map(coords, *xi);
+            if determinant.is_nan() || determinant <= 0.0 {
+                let node = nodes[corner];
+                return Err(ElementError::Folded {
+                    corner,
+                    node,
+                    determinant,
+                });
+            }
+        }
         let mut points = Vec::new();
         let mut positions = Vec::new();
         for (point, (xi, w)) in quadrature::cube(rule.per_direction())

@@ -131,3 +131,30 @@ fn sheets_bonded_under_load_start_free_of_stress() {
         assert!(closure.abs() < 5e-3, "{hold}: {closure}");
     }
 }
+
+/// A beam whose sheets were never bonded, because its path ended before: results of the bare beam, and what to do.
+#[test]
+fn sheets_that_were_never_bonded_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let staged = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/specimens/examples/A-SO3-4-staged.ron"
+    );
+    let output = Command::new(env!("CARGO_BIN_EXE_rc-beams"))
+        .args(["run", staged, "--until", "0.1", "--steps", "1", "-o"])
+        .arg(folder.path())
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let line = String::from_utf8(output.stdout).unwrap();
+    assert!(line.contains("lower load in staged.load_kn"), "{line}");
+    let beam = folder.path().join("A-SO3-4-staged");
+    for file in [
+        "summary.json",
+        "history.csv",
+        "fields_0001.vtu",
+        "crack.svg",
+    ] {
+        assert!(beam.join(file).exists(), "{file}");
+    }
+}

@@ -64,6 +64,7 @@ pub fn analyse(
             });
         }
         first.work = march.work;
+        first.ended_on = Some(bare);
         return Ok(first);
     }
     if staging.staged.hold == HoldOrUnload::Unload {
@@ -80,6 +81,7 @@ pub fn analyse(
         if let stop @ Err(_) = unloading.stop {
             first.stop = stop;
             first.work = march.work;
+            first.ended_on = Some(bare);
             return Ok(first);
         }
     }
@@ -96,7 +98,7 @@ pub fn analyse(
     let (outcome, _) = march.load(&beam, &mut state, start, &rest, Until::Failure)?;
     Ok(Outcome {
         before: first.path,
-        strengthened: Some(beam),
+        ended_on: Some(beam),
         work: march.work,
         ..outcome
     })
@@ -162,7 +164,7 @@ impl March<'_> {
         let last = path.last().map_or(0.0, |p| p.deflection);
         let outcome = Outcome {
             before: Vec::new(),
-            strengthened: None,
+            ended_on: None,
             path,
             peak,
             fallen,

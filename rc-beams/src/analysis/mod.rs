@@ -198,8 +198,8 @@ pub enum AnalysisError {
 pub struct Outcome {
     /// Load path before the sheets were bonded; empty unless the strengthening is staged.
     pub before: Vec<PathPoint>,
-    /// The beam that was strengthened under load.
-    pub strengthened: Option<Beam>,
+    /// The beam of the last stage, unless it is the one that was given: without sheets or strengthened under load.
+    pub ended_on: Option<Beam>,
     /// Load path, one point per accepted step.
     pub path: Vec<PathPoint>,
     /// State at the largest load up to the fall; `None` without a step.

@@ -18,6 +18,7 @@ mod tests;
 
 use std::ops::Range;
 
+use fe_core::check;
 use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError};
 use fe_core::material::MaterialError;
@@ -217,6 +218,10 @@ impl Beam {
         let measures = Measures::new(specimen, &model)?;
         let [weight, loading, unloading] =
             conditions::stages(specimen, &model, &measures, &weight)?;
+        check::joined(&model)?;
+        for conditions in [&weight, &loading] {
+            check::held(&model, conditions)?;
+        }
         let gauges = gauges::gauges(specimen, &model, &bars, sheets.as_ref());
         Ok(Self {
             model,

@@ -141,7 +141,7 @@ fn run(
             });
         }
     };
-    let beam = outcome.strengthened.as_ref().unwrap_or(&beam);
+    let beam = outcome.ended_on.as_ref().unwrap_or(&beam);
     let peak = outcome.peak.iter().filter(|peak| **peak != outcome.last);
     let states: Vec<_> = peak.chain([&outcome.last]).collect();
     let (watch, writing) = recording.finish(&beam.model, &states)?;

@@ -1,0 +1,200 @@
+//! What makes a model move freely or fall apart, found before anything is solved.
+
+use nalgebra::{DMatrix, Vector3};
+
+use crate::dof::Dof;
+use crate::mesh::NodeId;
+use crate::model::{Conditions, Model, ModelError};
+
+/// Nodes closer than this share of the diagonal of the mesh lie at the same place.
+const COINCIDENT: f64 = 1e-9;
+/// Singular values below this share of the largest count as zero.
+const RANK: f64 = 1e-8;
+
+/// Rigid motions of a part, in words.
+const MOTIONS: [&str; 6] = [
+    "move along x",
+    "move along y",
+    "move along z",
+    "turn about an axis along x",
+    "turn about an axis along y",
+    "turn about an axis along z",
+];
+
+/// Makes sure that the conditions hold every connected part of a model against rigid motion, and that their loads are
+/// numbers.
+///
+/// Parts are connected by the nodes that elements share. A part is held if the rows of its rigid motions that belong to
+/// prescribed DOFs have the rank of all its rows. Mechanisms inside a part are left to the solver.
+///
+/// # Errors
+///
+/// [`ModelError::NotHeld`] for the first part that can move, [`ModelError::NotFinite`] for a load or a rate that is no
+/// number.
+pub fn held(model: &Model, conditions: &Conditions) -> Result<(), ModelError> {
+    finite(model, conditions)?;
+    for part in parts(model) {
+        free_motion(model, conditions, &part)?;
+    }
+    Ok(())
+}
+
+/// Makes sure that no two nodes that elements use lie at one place without an element between them: a seam that was
+/// not meant. Models with slits or notches have such nodes on purpose.
+///
+/// # Errors
+///
+/// [`ModelError::Seam`] for the first pair.
+pub fn joined(model: &Model) -> Result<(), ModelError> {
+    let mesh = model.mesh();
+    let [low, high] = mesh.bounding_box().map(Vector3::from);
+    let near = COINCIDENT * (high - low).norm();
+    let mut touching: Vec<Vec<usize>> = vec![Vec::new(); mesh.nodes().len()];
+    for (e, element) in model.elements().iter().enumerate() {
+        for &node in element.nodes() {
+            touching[node].push(e);
+        }
+    }
+    let mut order: Vec<NodeId> = (0..touching.len())
+        .filter(|&n| !touching[n].is_empty())
+        .collect();
+    let x = |n: NodeId| mesh.nodes()[n];
+    order.sort_by(|&a, &b| x(a)[0].total_cmp(&x(b)[0]).then(a.cmp(&b)));
+    for (i, &a) in order.iter().enumerate() {
+        let close = order[i + 1..]
+            .iter()
+            .take_while(|&&b| x(b)[0] - x(a)[0] <= near);
+        for &b in close {
+            let same = (Vector3::from(x(b)) - Vector3::from(x(a))).norm() <= near;
+            if same && !touching[a].iter().any(|e| touching[b].contains(e)) {
+                return Err(ModelError::Seam {
+                    nodes: [a.min(b), a.max(b)],
+                    position: x(a),
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn finite(model: &Model, conditions: &Conditions) -> Result<(), ModelError> {
+    let mut dead = vec![0.0; model.dofs().len()];
+    conditions.external(0.0, &mut dead);
+    let reference = conditions.reference();
+    for d in 0..dead.len() {
+        let rate = conditions.prescribed().get(&d).copied().unwrap_or(0.0);
+        for (what, value) in [
+            ("dead load", dead[d]),
+            ("load", reference[d]),
+            ("prescribed displacement", rate),
+        ] {
+            if !value.is_finite() {
+                let (node, dof) = model.dofs().owner(d);
+                return Err(ModelError::NotFinite {
+                    what,
+                    node,
+                    dof,
+                    position: model.mesh().nodes()[node],
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Nodes of every connected part, in the order of their first nodes.
+fn parts(model: &Model) -> Vec<Vec<NodeId>> {
+    let n = model.mesh().nodes().len();
+    let mut root: Vec<usize> = (0..n).collect();
+    let mut used = vec![false; n];
+    for element in model.elements() {
+        let nodes = element.nodes();
+        for &node in nodes {
+            used[node] = true;
+            let (a, b) = (find(&mut root, nodes[0]), find(&mut root, node));
+            root[a.max(b)] = a.min(b);
+        }
+    }
+    let mut parts: Vec<Vec<NodeId>> = vec![Vec::new(); n];
+    for node in (0..n).filter(|&node| used[node]) {
+        let first = find(&mut root, node);
+        parts[first].push(node);
+    }
+    parts.retain(|part| !part.is_empty());
+    parts
+}
+
+fn find(root: &mut [usize], mut node: usize) -> usize {
+    while root[node] != node {
+        root[node] = root[root[node]];
+        node = root[node];
+    }
+    node
+}
+
+/// Row of a DOF in the rigid motions about `centre`: translations, and rotations times `size` (mm).
+fn row(model: &Model, node: NodeId, dof: Dof, centre: Vector3<f64>, size: f64) -> [f64; 6] {
+    let r = (Vector3::from(model.mesh().nodes()[node]) - centre) / size;
+    match dof {
+        Dof::Ux => [1.0, 0.0, 0.0, 0.0, r.z, -r.y],
+        Dof::Uy => [0.0, 1.0, 0.0, -r.z, 0.0, r.x],
+        Dof::Uz => [0.0, 0.0, 1.0, r.y, -r.x, 0.0],
+        Dof::Rx => [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+        Dof::Ry => [0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
+        Dof::Rz => [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+    }
+}
+
+/// Refuses a part that can move as a rigid body.
+fn free_motion(model: &Model, conditions: &Conditions, part: &[NodeId]) -> Result<(), ModelError> {
+    let position = |n: NodeId| Vector3::from(model.mesh().nodes()[n]);
+    let centre = part.iter().map(|&n| position(n)).sum::<Vector3<f64>>() / part.len() as f64;
+    let reach = part.iter().map(|&n| (position(n) - centre).norm());
+    let size = reach.fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    // Normal equations: R^T R of all DOFs of the part, and of those that are prescribed.
+    let mut all = DMatrix::<f64>::zeros(6, 6);
+    let mut held = DMatrix::<f64>::zeros(6, 6);
+    for &node in part {
+        for dof in Dof::ALL {
+            let Some(d) = model.dofs().index(node, dof) else {
+                continue;
+            };
+            let r = row(model, node, dof, centre, size);
+            let is_held = conditions.prescribed().contains_key(&d);
+            for i in 0..6 {
+                for j in 0..6 {
+                    all[(i, j)] += r[i] * r[j];
+                    if is_held {
+                        held[(i, j)] += r[i] * r[j];
+                    }
+                }
+            }
+        }
+    }
+    let eigen = held.symmetric_eigen();
+    let largest = eigen.eigenvalues.max().max(1.0);
+    for k in 0..6 {
+        if eigen.eigenvalues[k] > RANK * largest {
+            continue;
+        }
+        // A motion the conditions do not see; it counts if it moves the part at all.
+        let mode = eigen.eigenvectors.column(k);
+        let moves = (mode.transpose() * &all * mode)[(0, 0)];
+        if moves > RANK * part.len() as f64 {
+            let largest = mode.iter().map(|m| m.abs()).enumerate();
+            let motion = largest.fold(
+                (0, 0.0),
+                |best, (i, m)| {
+                    if m > best.1 + 1e-9 { (i, m) } else { best }
+                },
+            );
+            return Err(ModelError::NotHeld {
+                node: part[0],
+                position: model.mesh().nodes()[part[0]],
+                nodes: part.len(),
+                motion: MOTIONS[motion.0],
+            });
+        }
+    }
+    Ok(())
+}
