@@ -136,6 +136,7 @@ impl Automatic {
                 },
                 iterations: 0,
                 held: false,
+                means: None,
             },
             Err(e) => return Err(e),
         };

@@ -17,6 +17,8 @@ pub struct PathPoint {
     pub held: bool,
     /// Equilibrium, but not a stable one: the tangent has negative pivots.
     pub unstable: bool,
+    /// Largest kinetic energy over the work so far, where the path is a motion and no chain of equilibria.
+    pub kinetic: Option<f64>,
 }
 
 /// Fall from the running maximum after which the path before it holds the capacity.
@@ -88,6 +90,16 @@ impl Capacity {
     }
 }
 
+/// Largest share of kinetic energy from half of the last load of a path on; none if it is no motion.
+fn moving(path: &[PathPoint]) -> Option<f64> {
+    let half = 0.5 * path.last()?.load;
+    let from = path.iter().position(|p| p.load >= half)?;
+    path[from..]
+        .iter()
+        .filter_map(|p| p.kinetic)
+        .reduce(f64::max)
+}
+
 fn relative_fall(from: f64, to: f64) -> f64 {
     if from > 0.0 { (from - to) / from } else { 0.0 }
 }
@@ -124,6 +136,10 @@ pub const MAX_LOAD_GAP: f64 = 0.03;
 pub const MAX_STEP_CHANGE: f64 = 0.03;
 /// The same beyond which it is not trusted.
 pub const MAX_STEP_CHANGE_LIMITED: f64 = 0.10;
+
+/// Kinetic energy over the work done beyond which the peak of a motion is not trusted (prototype runs: the peak no
+/// longer depends on the rate from 1e-3 down).
+pub const MAX_KINETIC: f64 = 1e-3;
 
 /// Verdict on the peak of a path, with its evidence.
 #[derive(Debug, Clone, PartialEq)]
@@ -183,6 +199,18 @@ impl Verdict {
         } else if relative.is_nan() {
             let reason = "no loaded step up to the peak meets the criterion".to_owned();
             (Trust::Low, reason)
+        } else if let Some(kinetic) = moving(before) {
+            let unbalanced = worst(&mut before.iter());
+            let trust = if kinetic > MAX_KINETIC {
+                Trust::Low
+            } else {
+                Trust::Limited
+            };
+            let reason = format!(
+                "a motion, no equilibria: from half of the peak on the kinetic energy is at most {kinetic:.1e} of the \
+                 work, up to the peak the unbalanced force at most {unbalanced:.1e} of the reactions"
+            );
+            (trust, reason)
         } else if flagged > 0 {
             let reason = format!(
                 "{flagged} of {steps} steps up to the peak miss the criterion, residual at most \
@@ -256,6 +284,7 @@ mod tests {
             flagged: false,
             held: false,
             unstable: false,
+            kinetic: None,
         };
         loads.iter().enumerate().map(point).collect()
     }

@@ -129,6 +129,7 @@ impl StepControl {
             };
             if let Some(entry) = recorder.recall()? {
                 length = entry.length;
+                driver.recall(&entry.memory);
                 let done = Self::replay(stage, recorder, step, entry)?;
                 flagged = done.flagged(flagged);
                 if let Continue::Stop(reason) = done.verdict {
@@ -165,6 +166,7 @@ impl StepControl {
                         counters: *stage.counters(),
                         load: 0.0,
                         iterations: std::mem::take(&mut heard.iterations),
+                        memory: driver.memory(),
                         notes: std::mem::take(&mut heard.notes),
                     };
                     let done = Self::accept(stage, recorder, step, entry, Origin::Solved)?;
@@ -265,6 +267,9 @@ impl StepControl {
     ) -> Result<Done, SolverError> {
         let (u, lambda) = (&entry.attempt.displacement, entry.attempt.lambda);
         let negative_pivots = stage.stability(u, lambda)?;
+        if let Some(means) = &entry.attempt.means {
+            stage.read_off(&means.internal);
+        }
         let load = stage.load();
         match origin {
             Origin::Solved => {
@@ -300,6 +305,7 @@ impl StepControl {
             work_conjugate_load,
             flagged: !attempt.converged,
             negative_pivots,
+            kinetic: attempt.means.map(|m| m.kinetic),
             stage,
         };
         Ok(Done {

@@ -21,6 +21,15 @@ pub struct Request {
     pub last_resort: bool,
 }
 
+/// What a driver that follows a motion, not equilibria, reports of a step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Means {
+    /// Internal force (N) on all DOFs, mean over the step.
+    pub internal: Vec<f64>,
+    /// Largest kinetic energy of the step over the work done so far.
+    pub kinetic: f64,
+}
+
 /// Result of one attempt at a step. The trial state of the stage is that of `displacement`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Attempt {
@@ -36,6 +45,8 @@ pub struct Attempt {
     pub iterations: usize,
     /// Whether the step passed a snap at a held load factor.
     pub held: bool,
+    /// Of a motion; none where the step ends in equilibrium.
+    pub means: Option<Means>,
 }
 
 /// Brings one step to equilibrium, starting from the accepted state of a stage.
@@ -54,6 +65,14 @@ pub trait Driver: Debug {
         request: Request,
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError>;
+
+    /// What the driver keeps of the accepted steps beside the state of the stage, for [`Self::recall`].
+    fn memory(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Takes back what [`Self::memory`] gave after the same step of an earlier run.
+    fn recall(&mut self, _memory: &[f64]) {}
 
     /// What the driver has decided since it was last asked, with the reasons.
     fn notes(&mut self) -> Vec<String> {

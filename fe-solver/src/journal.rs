@@ -5,8 +5,8 @@
 //! step control goes on with, and what recorders were told. Entries accepted again in order, without iterations,
 //! bring a stage to the same state to the last bit; only then does the driver take over.
 //!
-//! Drivers must keep nothing of their own from step to step; [`Automatic`](crate::automatic::Automatic) does, and
-//! cannot be continued.
+//! Drivers keep nothing of their own from step to step, or give it as their [memory](crate::driver::Driver::memory).
+//! [`Automatic`](crate::automatic::Automatic) does neither: runs with it cannot be continued.
 
 use serde::{Deserialize, Serialize};
 
@@ -33,6 +33,8 @@ pub struct Entry {
     pub load: f64,
     /// Iterations of all attempts.
     pub iterations: Vec<IterationRecord>,
+    /// What the driver keeps beside the state of the stage.
+    pub memory: Vec<f64>,
     /// What the driver said, attempt by attempt.
     pub notes: Vec<String>,
 }

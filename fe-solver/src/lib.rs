@@ -12,6 +12,7 @@ pub mod control;
 pub mod descent;
 pub mod driver;
 pub mod error;
+pub mod explicit;
 pub mod journal;
 pub mod linear;
 pub mod newton;

@@ -158,6 +158,7 @@ impl Driver for NewtonRaphson {
                     residual: size,
                     iterations,
                     held: false,
+                    means: None,
                 });
             }
             stage.latch();

@@ -49,6 +49,8 @@ pub struct StepView<'a> {
     pub work_conjugate_load: f64,
     /// Whether the step was accepted without meeting the criterion.
     pub flagged: bool,
+    /// Largest kinetic energy of the step over the work so far, for drivers that follow a motion.
+    pub kinetic: Option<f64>,
     /// Negative pivots of the symmetric part of the consistent tangent: 0 in a stable equilibrium.
     pub negative_pivots: usize,
 }

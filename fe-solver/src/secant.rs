@@ -260,6 +260,7 @@ impl Driver for SecantAnderson {
             residual,
             iterations,
             held,
+            means: None,
         })
     }
 }

@@ -116,6 +116,7 @@ fn path() -> Vec<PathPoint> {
             flagged: i == 70 || i == 71,
             held: i == 54,
             unstable: false,
+            kinetic: None,
         }
     };
     (0..=112).map(point).collect()

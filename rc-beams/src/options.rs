@@ -159,6 +159,8 @@ pub enum Driver {
     Newton,
     /// Newton-Raphson, tangent kept while it serves
     ModifiedNewton,
+    /// No equilibria: slow motion with fictitious masses, to check the others by; takes minutes
+    Explicit,
 }
 
 /// Steps whose fields are written for ParaView.

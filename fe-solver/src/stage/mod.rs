@@ -276,6 +276,32 @@ impl<'m> Stage<'m> {
             .collect()
     }
 
+    /// Internal force (N) of the last evaluation, all DOFs.
+    pub(crate) fn internal(&self) -> &[f64] {
+        &self.assembled.internal
+    }
+
+    /// Makes `internal` (N, all DOFs) the forces from which loads and reactions are read until the next evaluation.
+    pub(crate) fn read_off(&mut self, internal: &[f64]) {
+        self.assembled.internal.copy_from_slice(internal);
+    }
+
+    /// sum_j |K_ij| of the free equations (N/mm) of the last operator, which must be symmetric.
+    pub(crate) fn absolute_row_sums(&self) -> Vec<f64> {
+        let pattern = self.assembler.pattern();
+        let mut sums = vec![0.0; pattern.len()];
+        for j in 0..pattern.len() {
+            for k in pattern.col_ptr()[j]..pattern.col_ptr()[j + 1] {
+                let (i, value) = (pattern.row_idx()[k], self.assembled.matrix.lower[k].abs());
+                sums[i] += value;
+                if i != j {
+                    sums[j] += value;
+                }
+            }
+        }
+        sums
+    }
+
     /// Lets laws latch new cracks found by the last evaluation.
     pub fn latch(&mut self) {
         self.state.latch(self.model.elements());

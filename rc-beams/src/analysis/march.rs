@@ -4,6 +4,7 @@ use fe_core::state::StateStore;
 use fe_solver::control::StepControl;
 use fe_solver::driver::Driver;
 use fe_solver::error::SolverError;
+use fe_solver::secant::SecantAnderson;
 use fe_solver::stage::{Counters, PhaseTimes, Stage};
 
 use super::recorder::{LoadRecorder, Origin, WeightRecorder};
@@ -129,7 +130,8 @@ impl March<'_> {
             criterion: self.stepping.criterion,
             ..StepControl::new(1.0, 1.0)
         };
-        control.run(&mut stage, self.driver, &mut recorder)?;
+        // Whatever follows starts from an equilibrium.
+        control.run(&mut stage, &mut SecantAnderson::default(), &mut recorder)?;
         self.work.push((*stage.counters(), *stage.times()));
         Ok(stage.displacement().to_vec())
     }

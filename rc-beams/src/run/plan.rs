@@ -2,6 +2,7 @@
 
 use fe_elements::HexRule;
 use fe_solver::driver::Driver;
+use fe_solver::explicit::Explicit;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings, Refactor};
 use fe_solver::secant::SecantAnderson;
 
@@ -64,6 +65,7 @@ pub(super) fn stepping(specimen: &Specimen, options: &RunOptions) -> Stepping {
 pub(super) fn driver(options: &RunOptions) -> Box<dyn Driver> {
     match options.driver {
         options::Driver::Secant => Box::new(SecantAnderson::default()),
+        options::Driver::Explicit => Box::new(Explicit::default()),
         options::Driver::Newton => Box::new(NewtonRaphson::new(NewtonSettings::default())),
         options::Driver::ModifiedNewton => Box::new(NewtonRaphson::new(NewtonSettings {
             refactor: Refactor::Below(KEEP_FACTOR),

@@ -125,6 +125,7 @@ impl<'a> Recording<'a> {
             held: view.held,
             flagged: view.flagged,
             step_mm: if step > 0 { view.increment } else { 0.0 },
+            kinetic: view.kinetic,
             factorisations: stage.counters().factorisations,
             force_evaluations: stage.counters().force_evaluations,
         };

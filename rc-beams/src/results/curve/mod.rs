@@ -177,6 +177,7 @@ mod tests {
             flagged: false,
             held: false,
             unstable: false,
+            kinetic: None,
         };
         loads.iter().enumerate().map(point).collect()
     }

@@ -37,6 +37,8 @@ pub struct StepRow {
     pub flagged: bool,
     /// Length of the step in the imposed displacement (mm).
     pub step_mm: f64,
+    /// Largest kinetic energy of the step over the work so far, of a motion.
+    pub kinetic: Option<f64>,
     /// Numeric factorisations so far.
     pub factorisations: usize,
     /// Evaluations of the internal force so far.
@@ -54,6 +56,7 @@ impl StepRow {
             flagged: self.flagged,
             held: self.held,
             unstable: self.negative_pivots > 0,
+            kinetic: self.kinetic,
         }
     }
 
@@ -74,6 +77,7 @@ impl StepRow {
             u8::from(self.held).to_string(),
             u8::from(self.flagged).to_string(),
             number(self.step_mm),
+            self.kinetic.map_or_else(String::new, number),
             self.factorisations.to_string(),
             self.force_evaluations.to_string(),
         ]);
@@ -82,7 +86,7 @@ impl StepRow {
 }
 
 /// Columns of `history.csv` before and after the reactions.
-const STEP_COLUMNS: ([&str; 4], [&str; 10]) = (
+const STEP_COLUMNS: ([&str; 4], [&str; 11]) = (
     ["step", "deflection_mm", "load_kn", "p_star_kn"],
     [
         "negative_pivots",
@@ -93,6 +97,7 @@ const STEP_COLUMNS: ([&str; 4], [&str; 10]) = (
         "held",
         "flagged",
         "step_mm",
+        "kinetic_share",
         "factorisations",
         "force_evaluations",
     ],
@@ -260,10 +265,10 @@ mod tests {
         history.step(&step, &[1.5e-5]).unwrap();
 
         let expected = "step,deflection_mm,load_kn,p_star_kn,reaction_x610_kn,reaction_x2440_kn,\
-                        negative_pivots,residual,criterion,iterations,attempts,held,flagged,step_mm,\
+                        negative_pivots,residual,criterion,iterations,attempts,held,flagged,step_mm,kinetic_share,\
                         factorisations,force_evaluations\n\
-                        0,0,0,,0,0,0,0.0005,0.001,3,1,0,0,0,0,0\n\
-                        1,0.1,20,20.25,10,10,0,0.0005,0.001,3,1,0,0,0,0,0\n";
+                        0,0,0,,0,0,0,0.0005,0.001,3,1,0,0,0,,0,0\n\
+                        1,0.1,20,20.25,10,10,0,0.0005,0.001,3,1,0,0,0,,0,0\n";
         assert_eq!(read("history.csv"), expected);
         assert_eq!(
             read("gauges.csv"),

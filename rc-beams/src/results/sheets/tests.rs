@@ -146,6 +146,7 @@ fn path(loads: &[f64]) -> Vec<PathPoint> {
         flagged: false,
         held: false,
         unstable: false,
+        kinetic: None,
     };
     loads.iter().enumerate().map(point).collect()
 }

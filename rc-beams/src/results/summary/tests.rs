@@ -53,6 +53,7 @@ fn summary(loads: &[f64]) -> Summary {
         flagged: false,
         held: false,
         unstable: false,
+        kinetic: None,
     };
     let path: Vec<_> = loads.iter().enumerate().map(point).collect();
     let capacity = Capacity::of(&path).unwrap();
