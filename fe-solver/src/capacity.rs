@@ -90,14 +90,15 @@ impl Capacity {
     }
 }
 
-/// Largest share of kinetic energy from half of the last load of a path on; none if it is no motion.
-fn moving(path: &[PathPoint]) -> Option<f64> {
-    let half = 0.5 * path.last()?.load;
-    let from = path.iter().position(|p| p.load >= half)?;
-    path[from..]
-        .iter()
-        .filter_map(|p| p.kinetic)
-        .reduce(f64::max)
+/// Largest share of kinetic energy and largest residual from [`APPROACH`] of the last load of a path on, once the start
+/// has died away; none if it is no motion.
+fn moving(path: &[PathPoint]) -> Option<(f64, f64)> {
+    let near = APPROACH * path.last()?.load;
+    let from = path.iter().position(|p| p.load >= near)?;
+    let near = &path[from..];
+    let kinetic = near.iter().filter_map(|p| p.kinetic).reduce(f64::max)?;
+    let residual = near.iter().map(|p| p.residual).fold(0.0, f64::max);
+    Some((kinetic, residual))
 }
 
 fn relative_fall(from: f64, to: f64) -> f64 {
@@ -141,6 +142,9 @@ pub const MAX_STEP_CHANGE_LIMITED: f64 = 0.10;
 /// longer depends on the rate from 1e-3 down).
 pub const MAX_KINETIC: f64 = 1e-3;
 
+/// Share of the peak from which on a motion is judged.
+pub const APPROACH: f64 = 0.8;
+
 /// Verdict on the peak of a path, with its evidence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verdict {
@@ -167,7 +171,9 @@ impl Verdict {
     /// criterion. That step is no jump: across a jump P* is the work of forces no static state
     /// balances, not an error of the load. Limited trust when a step is flagged, when the path jumps
     /// or passes unstable equilibria before the peak (other equilibrium branches exist then, and which one
-    /// the path takes depends on the steps), or when the load is largest at the end of the path.
+    /// the path takes depends on the steps), or when the load is largest at the end of the path. A motion is trusted
+    /// within limits as long as its kinetic energy stays below [`MAX_KINETIC`] from [`APPROACH`] of the peak on, else
+    /// not.
     pub fn of(path: &[PathPoint], capacity: &Capacity) -> Self {
         let before = path.get(..=capacity.peak).unwrap_or(path);
         let steps = before.len();
@@ -199,16 +205,15 @@ impl Verdict {
         } else if relative.is_nan() {
             let reason = "no loaded step up to the peak meets the criterion".to_owned();
             (Trust::Low, reason)
-        } else if let Some(kinetic) = moving(before) {
-            let unbalanced = worst(&mut before.iter());
+        } else if let Some((kinetic, unbalanced)) = moving(before) {
             let trust = if kinetic > MAX_KINETIC {
                 Trust::Low
             } else {
                 Trust::Limited
             };
             let reason = format!(
-                "a motion, no equilibria: from half of the peak on the kinetic energy is at most {kinetic:.1e} of the \
-                 work, up to the peak the unbalanced force at most {unbalanced:.1e} of the reactions"
+                "a motion, no equilibria: from {APPROACH} of the peak on the kinetic energy is at most {kinetic:.1e} of \
+                 the work, the unbalanced force at most {unbalanced:.1e} of the reactions"
             );
             (trust, reason)
         } else if flagged > 0 {
@@ -399,5 +404,18 @@ mod tests {
     fn a_path_without_a_peak_earns_no_high_trust() {
         assert_eq!(trust(&path(&[0.0, 1.0, 2.0])), Trust::Limited);
         assert_eq!(trust(&path(&[0.0])), Trust::Low);
+    }
+
+    #[test]
+    fn a_motion_is_trusted_within_limits_while_it_is_slow() {
+        for (share, trust) in [(5e-4, Trust::Limited), (5e-3, Trust::Low)] {
+            let mut path = path(&[10.0, 50.0, 85.0, 100.0, 70.0]);
+            for (point, kinetic) in path.iter_mut().zip([0.1, 0.01, share, 1e-4, 0.05]) {
+                point.kinetic = Some(kinetic);
+            }
+            let capacity = Capacity::of(&path).unwrap();
+            let verdict = Verdict::of(&path, &capacity);
+            assert_eq!(verdict.trust, trust, "{}", verdict.reason);
+        }
     }
 }

@@ -149,7 +149,7 @@ impl Checkpoint {
         };
         let mut records = 0;
         while checkpoint
-            .next()
+            .recall()
             .map_err(|e| wrong(e.to_string()))?
             .is_some()
         {
@@ -172,7 +172,7 @@ impl Checkpoint {
     /// # Errors
     ///
     /// An error of kind [`io::ErrorKind::InvalidData`].
-    pub fn next(&mut self) -> io::Result<Option<Entry>> {
+    pub fn recall(&mut self) -> io::Result<Option<Entry>> {
         let (steps, at) = &mut self.earlier;
         let rest = &steps[*at..];
         if rest.is_empty() {

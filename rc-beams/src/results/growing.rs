@@ -58,7 +58,7 @@ impl Growing {
 
     fn mismatch(&self) -> Error {
         let before = &self.earlier[..self.at];
-        let line = 1 + before.iter().filter(|&&b| b == b'\n').count();
+        let line = before.split(|&b| b == b'\n').count();
         Error::new(
             ErrorKind::InvalidData,
             format!(

@@ -192,7 +192,7 @@ impl Observer for Recording<'_> {
     }
 
     fn recall(&mut self) -> io::Result<Option<Entry>> {
-        let entry = self.checkpoint.next()?;
+        let entry = self.checkpoint.recall()?;
         if entry.is_none() && self.resuming {
             self.resuming = false;
             self.checkpoint.settle()?;
