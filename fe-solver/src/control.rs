@@ -266,7 +266,8 @@ impl StepControl {
         origin: Origin,
     ) -> Result<Done, SolverError> {
         let (u, lambda) = (&entry.attempt.displacement, entry.attempt.lambda);
-        let negative_pivots = stage.stability(u, lambda)?;
+        let signs = stage.stability(u, lambda)?;
+        let critical = stage.signs().until(signs);
         if let Some(means) = &entry.attempt.means {
             stage.read_off(&means.internal);
         }
@@ -292,7 +293,7 @@ impl StepControl {
         } = entry;
         let increment = lambda - stage.lambda();
         let work_conjugate_load = stage.work_conjugate_load(&attempt.displacement, lambda);
-        stage.commit(attempt.displacement, lambda, attempt.held);
+        stage.commit(attempt.displacement, lambda, attempt.held, signs);
         let view = StepView {
             step,
             lambda,
@@ -304,7 +305,8 @@ impl StepControl {
             load,
             work_conjugate_load,
             flagged: !attempt.converged,
-            negative_pivots,
+            negative_pivots: signs.negative,
+            critical,
             kinetic: attempt.means.map(|m| m.kinetic),
             stage,
         };

@@ -9,6 +9,7 @@ pub mod anderson;
 pub mod automatic;
 pub mod capacity;
 pub mod control;
+pub mod critical;
 pub mod descent;
 pub mod driver;
 pub mod error;

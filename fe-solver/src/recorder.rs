@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::critical::Critical;
 use crate::journal::Entry;
 use crate::stage::Stage;
 
@@ -53,6 +54,8 @@ pub struct StepView<'a> {
     pub kinetic: Option<f64>,
     /// Negative pivots of the symmetric part of the consistent tangent: 0 in a stable equilibrium.
     pub negative_pivots: usize,
+    /// What the path has passed since the step before.
+    pub critical: Option<Critical>,
 }
 
 /// Whether to go on.

@@ -4,6 +4,7 @@ use fe_core::dof::Dof;
 use fe_core::model::{Conditions, Model};
 use fe_core::state::StateStore;
 use fe_solver::control::StepControl;
+use fe_solver::critical::Critical;
 use fe_solver::driver::Driver;
 use fe_solver::error::SolverError;
 use fe_solver::recorder::{Continue, Recorder, StepView};
@@ -26,6 +27,8 @@ pub struct Path {
     pub points: Vec<[f64; 2]>,
     /// What the driver said.
     pub notes: Vec<String>,
+    /// Critical points passed, with the force (N) of the step before.
+    pub critical: Vec<(Critical, f64)>,
     /// Why it did not arrive.
     pub stopped: Option<String>,
     /// Steps that jumped, or missed the criterion.
@@ -41,6 +44,10 @@ impl Recorder for Path {
     }
 
     fn step(&mut self, view: &StepView<'_>) -> std::io::Result<Continue> {
+        if let Some(critical) = view.critical {
+            let before = self.points.last().map_or(0.0, |p| p[0]);
+            self.critical.push((critical, before));
+        }
         self.marked += usize::from(view.flagged || view.held);
         let u = view.stage.displacement();
         let along: f64 = self.forces.0.iter().zip(u).map(|(f, u)| f * u).sum();
@@ -99,6 +106,7 @@ pub fn follow(
         arrived,
         points: Vec::new(),
         notes: Vec::new(),
+        critical: Vec::new(),
         stopped: None,
         marked: 0,
         counters: Counters::default(),

@@ -7,6 +7,7 @@
 
 use fe_solver::automatic::Automatic;
 use fe_solver::control::StepControl;
+use fe_solver::critical::Critical;
 use fe_solver::driver::Driver;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings};
 use fe_solver::path::{ArcLength, Dissipation, LoadFactor, LoadedDisplacement, PathConstraint};
@@ -54,6 +55,20 @@ fn a_strip_comes_off_along_its_whole_path() {
         assert_eq!(path.notes.len(), 1, "{:?}", path.notes);
         assert!(path.notes[0].contains("dissipation control: the last step dissipated"));
     }
+}
+
+/// The peak of the strip is a limit point, found by the signs of the tangent, within a step of it; nothing branches off.
+#[test]
+fn the_peak_of_a_strip_is_a_limit_point() {
+    let path = path(&STRIP, vec![(steps(0.02, 1e-5), automatic())]);
+    let (kind, force) = path.critical[0];
+    assert_eq!(kind, Critical::Limit, "{:?}", path.critical);
+    assert!((force / 9269.9 - 1.0).abs() < 0.01, "{force}");
+    let branches = path
+        .critical
+        .iter()
+        .filter(|c| c.0 == Critical::Bifurcation);
+    assert_eq!(branches.count(), 0, "{:?}", path.critical);
 }
 
 /// Load control ends at the peak and says so. Target: within 0.1 % of it.

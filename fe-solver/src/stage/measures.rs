@@ -6,6 +6,8 @@ use fe_core::material::Operator;
 use serde::{Deserialize, Serialize};
 
 use super::Stage;
+use crate::anderson::dot;
+use crate::critical::Signs;
 use crate::error::SolverError;
 
 /// Share of the largest reactions of all accepted steps below which a residual is not measured against the present
@@ -80,7 +82,7 @@ impl Stage<'_> {
         self.assembled.internal[dof] - self.external[dof]
     }
 
-    /// Counts the negative pivots of the symmetric part (K + K^T)/2 of the consistent tangent at `u`: none in
+    /// Signs of the symmetric part (K + K^T)/2 of the consistent tangent at `u`: no negative pivots in
     /// an equilibrium that is stable under the constraints of the stage (positive second-order work, Hill
     /// 1958). A tangent that is singular counts as one.
     ///
@@ -89,7 +91,7 @@ impl Stage<'_> {
     /// # Errors
     ///
     /// [`SolverError`].
-    pub fn stability(&mut self, u: &[f64], lambda: f64) -> Result<usize, SolverError> {
+    pub fn stability(&mut self, u: &[f64], lambda: f64) -> Result<Signs, SolverError> {
         self.residual(u, lambda, &EvaluationContext::new(Operator::Tangent))?;
         let matrix = &mut self.assembled.matrix;
         if !matrix.is_symmetric() {
@@ -102,13 +104,25 @@ impl Stage<'_> {
         let factorised = self.factorise();
         // The next matrix is an operator of the driver.
         self.linear.expect(false);
-        match factorised {
-            Ok(()) => {}
-            Err(SolverError::Singular { .. }) => self.counters.negative_pivots = 1,
+        let singular = match factorised {
+            Ok(()) => false,
+            Err(SolverError::Singular { .. }) => true,
             Err(e) => return Err(e),
+        };
+        if singular {
+            self.counters.negative_pivots = 1;
         }
-        self.unstable = self.counters.negative_pivots > 0;
+        let negative = self.counters.negative_pivots;
+        self.unstable = negative > 0;
         self.stable_tangent = !self.unstable;
-        Ok(self.counters.negative_pivots)
+        let turned = if self.unstable && !singular {
+            let load = self.reference_load();
+            let mut response = load.clone();
+            self.precondition(&mut response)?;
+            dot(&load, &response) < 0.0
+        } else {
+            self.signs.turned && singular
+        };
+        Ok(Signs { negative, turned })
     }
 }

@@ -12,6 +12,7 @@ use fe_core::material::Operator;
 use fe_core::model::{Conditions, Model};
 use fe_core::state::StateStore;
 
+use crate::critical::Signs;
 use crate::error::SolverError;
 use crate::linear::{DirectSolver, LinearError, LinearSolver};
 
@@ -66,6 +67,8 @@ pub struct Stage<'m> {
     lambda: f64,
     previous: Option<(Vec<f64>, f64)>,
     accepted_load: f64,
+    /// Signs of the tangent at the accepted state.
+    signs: Signs,
     /// Largest norm of the reactions (N) of all accepted states.
     largest_reactions: f64,
     counters: Counters,
@@ -104,6 +107,7 @@ impl<'m> Stage<'m> {
             lambda: 0.0,
             previous: None,
             accepted_load: 0.0,
+            signs: Signs::STABLE,
             largest_reactions: 0.0,
             counters: Counters::default(),
             times: PhaseTimes::default(),
@@ -144,6 +148,11 @@ impl<'m> Stage<'m> {
     /// [`Self::load`] of the accepted state; 0 before the first step.
     pub const fn accepted_load(&self) -> f64 {
         self.accepted_load
+    }
+
+    /// Signs of the tangent at the accepted state; those of a stable one before the first step.
+    pub const fn signs(&self) -> Signs {
+        self.signs
     }
 
     /// Accepted states.
@@ -323,8 +332,9 @@ impl<'m> Stage<'m> {
     }
 
     /// Accepts displacement, load factor and the trial state of the last evaluation. The increment of a `held` step,
-    /// which passed a snap, says nothing about the next one and is forgotten.
-    pub fn commit(&mut self, u: Vec<f64>, lambda: f64, held: bool) {
+    /// which passed a snap, says nothing about the next one and is forgotten. `signs` are those of the tangent there.
+    pub fn commit(&mut self, u: Vec<f64>, lambda: f64, held: bool, signs: Signs) {
+        self.signs = signs;
         let du = u
             .iter()
             .zip(&self.displacement)
