@@ -89,19 +89,6 @@ pub enum ElementError {
         /// Value found.
         determinant: f64,
     },
-    /// The element is folded or inverted at a corner.
-    #[error(
-        "Jacobian determinant {determinant:.4e} mm3 at corner {corner}, node {node}, is not positive: the element is \
-         folded there; check the order and the position of its nodes"
-    )]
-    Folded {
-        /// Corner, counted from 0.
-        corner: usize,
-        /// Its node.
-        node: NodeId,
-        /// Value found.
-        determinant: f64,
-    },
     /// A bar leaves the mesh.
     #[error(
         "bar {bar}: the point ({x:.3}, {y:.3}, {z:.3}) mm lies in no element that may host it; \

@@ -78,8 +78,9 @@ impl Hex20 {
     ///
     /// # Errors
     ///
-    /// [`ElementError::Folded`] or [`ElementError::Jacobian`] for an inverted or too distorted cell, [`ElementError::Input`] for a
-    /// crack-band width that is not positive, [`ElementError::Material`] when the law refuses it.
+    /// [`ElementError::Jacobian`] for a cell that is inverted or folded at one of the 3x3x3 points,
+    /// [`ElementError::Input`] for a crack-band width that is not positive, [`ElementError::Material`] when the law
+    /// refuses it.
     pub fn new(
         nodes: [NodeId; 20],
         coords: &[[f64; 3]; 20],
@@ -87,16 +88,11 @@ impl Hex20 {
         law: Arc<dyn Material<Solid>>,
         band: BandWidth,
     ) -> Result<Self, ElementError> {
-        // At two points per direction a fold can hide in a corner.
-        for (corner, xi) in hex20::NODES[..8].iter().enumerate() {
-            let (_, _, determinant) = hex20::map(coords, *xi);
+        // Two points per direction see less of a fold than three.
+        for (point, (xi, _)) in quadrature::cube(3).into_iter().enumerate() {
+            let (_, _, determinant) = hex20::map(coords, xi);
             if determinant.is_nan() || determinant <= 0.0 {
-                let node = nodes[corner];
-                return Err(ElementError::Folded {
-                    corner,
-                    node,
-                    determinant,
-                });
+                return Err(ElementError::Jacobian { point, determinant });
             }
         }
         let mut points = Vec::new();

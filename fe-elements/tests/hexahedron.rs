@@ -66,18 +66,18 @@ fn impossible_widths_are_refused() {
     }
 }
 
-/// A cell turned inside out is refused with the corner and the determinant.
+/// A cell turned inside out is refused with the point and the determinant.
 #[test]
 fn inverted_cells_are_refused() {
     let mirrored = cell().map(|[x, y, z]| [-x, y, z]);
     let error = build(&mirrored, HexRule::Reduced, BandWidth::CubeRoot).unwrap_err();
     assert!(
-        matches!(error, ElementError::Folded { corner: 0, node: 0, determinant } if determinant < 0.0),
+        matches!(error, ElementError::Jacobian { point: 0, determinant } if determinant < 0.0),
         "{error}"
     );
 }
 
-/// A corner pulled through the cell folds it there only; at 2x2x2 points the map looks sound.
+/// A corner pulled into the cell folds it near there only: at the 2x2x2 points the map looks sound, at those of 3x3x3 not.
 #[test]
 fn a_folded_corner_is_refused() {
     let mut folded = cell();
@@ -87,7 +87,7 @@ fn a_folded_corner_is_refused() {
     }
     let error = build(&folded, HexRule::Reduced, BandWidth::CubeRoot).unwrap_err();
     assert!(
-        matches!(error, ElementError::Folded { corner: 0, .. }),
+        matches!(error, ElementError::Jacobian { point: 0, .. }),
         "{error}"
     );
 }
