@@ -1,6 +1,6 @@
 //! What makes a model move freely or fall apart, found before anything is solved.
 
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::dof::Dof;
 use crate::mesh::NodeId;
@@ -8,7 +8,7 @@ use crate::model::{Conditions, Model, ModelError};
 
 /// Nodes closer than this share of the diagonal of the mesh lie at the same place.
 const COINCIDENT: f64 = 1e-9;
-/// Singular values below this share of the largest count as zero.
+/// Eigenvalues below this share of the largest count as zero.
 const RANK: f64 = 1e-8;
 
 /// Rigid motions of a part, in words.
@@ -133,16 +133,17 @@ fn find(root: &mut [usize], mut node: usize) -> usize {
 }
 
 /// Row of a DOF in the rigid motions about `centre`: translations, and rotations times `size` (mm).
-fn row(model: &Model, node: NodeId, dof: Dof, centre: Vector3<f64>, size: f64) -> [f64; 6] {
+fn row(model: &Model, node: NodeId, dof: Dof, centre: Vector3<f64>, size: f64) -> Vector6<f64> {
     let r = (Vector3::from(model.mesh().nodes()[node]) - centre) / size;
-    match dof {
+    let row = match dof {
         Dof::Ux => [1.0, 0.0, 0.0, 0.0, r.z, -r.y],
         Dof::Uy => [0.0, 1.0, 0.0, -r.z, 0.0, r.x],
         Dof::Uz => [0.0, 0.0, 1.0, r.y, -r.x, 0.0],
         Dof::Rx => [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
         Dof::Ry => [0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
         Dof::Rz => [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
-    }
+    };
+    row.into()
 }
 
 /// Refuses a part that can move as a rigid body.
@@ -152,22 +153,17 @@ fn free_motion(model: &Model, conditions: &Conditions, part: &[NodeId]) -> Resul
     let reach = part.iter().map(|&n| (position(n) - centre).norm());
     let size = reach.fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     // Normal equations: R^T R of all DOFs of the part, and of those that are prescribed.
-    let mut all = DMatrix::<f64>::zeros(6, 6);
-    let mut held = DMatrix::<f64>::zeros(6, 6);
+    let (mut all, mut held) = (Matrix6::zeros(), Matrix6::zeros());
     for &node in part {
         for dof in Dof::ALL {
             let Some(d) = model.dofs().index(node, dof) else {
                 continue;
             };
             let r = row(model, node, dof, centre, size);
-            let is_held = conditions.prescribed().contains_key(&d);
-            for i in 0..6 {
-                for j in 0..6 {
-                    all[(i, j)] += r[i] * r[j];
-                    if is_held {
-                        held[(i, j)] += r[i] * r[j];
-                    }
-                }
+            let square = r * r.transpose();
+            all += square;
+            if conditions.prescribed().contains_key(&d) {
+                held += square;
             }
         }
     }
@@ -179,7 +175,7 @@ fn free_motion(model: &Model, conditions: &Conditions, part: &[NodeId]) -> Resul
         }
         // A motion the conditions do not see; it counts if it moves the part at all.
         let mode = eigen.eigenvectors.column(k);
-        let moves = (mode.transpose() * &all * mode)[(0, 0)];
+        let moves = mode.dot(&(all * mode));
         if moves > RANK * part.len() as f64 {
             let largest = mode.iter().map(|m| m.abs()).enumerate();
             let motion = largest.fold(

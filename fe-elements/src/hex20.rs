@@ -88,11 +88,14 @@ impl Hex20 {
         law: Arc<dyn Material<Solid>>,
         band: BandWidth,
     ) -> Result<Self, ElementError> {
-        // Two points per direction see less of a fold than three.
-        for (point, (xi, _)) in quadrature::cube(3).into_iter().enumerate() {
-            let (_, _, determinant) = hex20::map(coords, xi);
-            if determinant.is_nan() || determinant <= 0.0 {
-                return Err(ElementError::Jacobian { point, determinant });
+        let map = |point, xi| match hex20::map(coords, xi) {
+            mapped @ (_, _, determinant) if determinant > 0.0 => Ok(mapped),
+            (_, _, determinant) => Err(ElementError::Jacobian { point, determinant }),
+        };
+        if rule == HexRule::Reduced {
+            // Two points per direction see less of a fold than three.
+            for (point, (xi, _)) in quadrature::cube(3).into_iter().enumerate() {
+                map(point, xi)?;
             }
         }
         let mut points = Vec::new();
@@ -101,10 +104,7 @@ impl Hex20 {
             .into_iter()
             .enumerate()
         {
-            let (position, gradients, determinant) = hex20::map(coords, xi);
-            if determinant.is_nan() || determinant <= 0.0 {
-                return Err(ElementError::Jacobian { point, determinant });
-            }
+            let (position, gradients, determinant) = map(point, xi)?;
             let mut g = [[0.0; PAD]; 3];
             for (a, d) in gradients.iter().enumerate() {
                 for k in 0..3 {

@@ -164,12 +164,12 @@ impl StepControl {
                         attempt,
                         base: stage.state().base_changes(),
                         counters: *stage.counters(),
-                        load: 0.0,
+                        load: None,
                         iterations: std::mem::take(&mut heard.iterations),
                         memory: driver.memory(),
                         notes: std::mem::take(&mut heard.notes),
                     };
-                    let done = Self::accept(stage, recorder, step, entry, Origin::Solved)?;
+                    let done = Self::accept(stage, recorder, step, entry)?;
                     flagged = done.flagged(flagged);
                     if let Continue::Stop(reason) = done.verdict {
                         return Ok(reason);
@@ -257,13 +257,13 @@ impl StepControl {
         }
     }
 
-    /// Measures the accepted state with the inviscid law, commits it and records it.
+    /// Measures the accepted state with the inviscid law, commits it and records it; keeps it, unless it is recalled and
+    /// leads where it led.
     fn accept(
         stage: &mut Stage<'_>,
         recorder: &mut dyn Recorder,
         step: usize,
         mut entry: Entry,
-        origin: Origin,
     ) -> Result<Done, SolverError> {
         let (u, lambda) = (&entry.attempt.displacement, entry.attempt.lambda);
         let signs = stage.stability(u, lambda)?;
@@ -272,18 +272,18 @@ impl StepControl {
             stage.read_off(&means.internal);
         }
         let load = stage.load();
-        match origin {
-            Origin::Solved => {
-                entry.load = load;
+        match entry.load {
+            None => {
+                entry.load = Some(load);
                 recorder.keep(&entry)?;
             }
-            Origin::Recalled if load.to_bits() != entry.load.to_bits() => {
+            Some(was) if was.to_bits() != load.to_bits() => {
                 return Err(SolverError::Journal {
                     step,
-                    what: format!("load {load} for {}", entry.load),
+                    what: format!("load {load} for {was}"),
                 });
             }
-            Origin::Recalled => {}
+            Some(_) => {}
         }
         let Entry {
             taken,
@@ -339,15 +339,8 @@ impl StepControl {
             recorder.note(step, note)?;
         }
         *stage.counters_mut() = entry.counters;
-        Self::accept(stage, recorder, step, entry, Origin::Recalled)
+        Self::accept(stage, recorder, step, entry)
     }
-}
-
-/// Where an accepted step comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Origin {
-    Solved,
-    Recalled,
 }
 
 /// What recorders have been told since the last accepted step.

@@ -5,6 +5,7 @@
 
 use std::io;
 
+use fe_core::testing::Random;
 use fe_solver::recorder::{Continue, IterationRecord, StepView};
 use fe_solver::secant::SecantAnderson;
 use miette::Diagnostic;
@@ -12,19 +13,6 @@ use rc_beams::analysis::{Observer, Reading, Stepping, analyse};
 use rc_beams::build::{Beam, ModelSettings};
 use rc_beams::options::Preset;
 use rc_beams::spec::{self, Specimen};
-
-/// Numbers without pattern, the same in every run (Knuth 1997, linear congruential generator of MMIX).
-struct Chance(u64);
-
-impl Chance {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) as usize) % n.max(1)
-    }
-}
 
 /// Byte ranges of the numbers of a text.
 fn numbers(text: &str) -> Vec<(usize, usize)> {
@@ -44,7 +32,7 @@ fn numbers(text: &str) -> Vec<(usize, usize)> {
 }
 
 /// Spoils a text in one place.
-fn spoil(text: &str, chance: &mut Chance) -> String {
+fn spoil(text: &str, chance: &mut Random) -> String {
     let places = numbers(text);
     let (a, b) = places[chance.below(places.len())];
     let value: f64 = text[a..b].parse().unwrap_or(1.0);
@@ -80,22 +68,22 @@ fn spoil(text: &str, chance: &mut Chance) -> String {
             lines.swap(line, other);
             lines.join("\n")
         }
-        8 => {
-            let mut cut = chance.below(text.len());
-            while !text.is_char_boundary(cut) {
-                cut -= 1;
-            }
-            text[..cut].to_owned()
-        }
+        8 => text[..cut(text, chance)].to_owned(),
         _ => {
-            let mut cut = chance.below(text.len());
-            while !text.is_char_boundary(cut) {
-                cut -= 1;
-            }
+            let (before, after) = text.split_at(cut(text, chance));
             let odd = ["(", ")", "x", ",", "\"", ":", "[", "é"][chance.below(8)];
-            format!("{}{odd}{}", &text[..cut], &text[cut..])
+            format!("{before}{odd}{after}")
         }
     }
+}
+
+/// A place between two characters.
+fn cut(text: &str, chance: &mut Random) -> usize {
+    let mut at = chance.below(text.len());
+    while !text.is_char_boundary(at) {
+        at += 1;
+    }
+    at
 }
 
 /// Watches that a run ends, and that all it says are numbers.
@@ -192,7 +180,7 @@ fn spoilt_files_are_refused_or_give_a_beam_in_equilibrium() {
         let path = format!("{}/specimens/{name}.ron", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
         for seed in 0..100 {
-            let spoilt = spoil(&text, &mut Chance(7919 * seed + 31));
+            let spoilt = spoil(&text, &mut Random::new(seed));
             match spec::read(name, &spoilt) {
                 Err(errors) => {
                     ends.refused += 1;

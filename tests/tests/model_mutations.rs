@@ -14,6 +14,7 @@ use fe_core::kinematics::Solid;
 use fe_core::material::Material;
 use fe_core::mesh::{CellKind, Mesh, NodeId};
 use fe_core::model::{Conditions, Model};
+use fe_core::testing::Random;
 use fe_elements::{BandWidth, Hex20, HexRule};
 use fe_materials::Elastic;
 use fe_tests::mesh::{BLOCK, boxes, lines, nodes_where};
@@ -23,23 +24,6 @@ const LENGTH: f64 = 80.0;
 const SIDE: f64 = 20.0;
 const YOUNG: f64 = 30_000.0;
 const FORCE: f64 = 1000.0;
-
-/// Numbers without pattern, the same in every run (Knuth 1997, linear congruential generator of MMIX).
-struct Chance(u64);
-
-impl Chance {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) as usize) % n
-    }
-
-    fn share(&mut self) -> f64 {
-        self.below(1_000_000) as f64 / 1e6
-    }
-}
 
 /// What a model is made from, open to be spoilt.
 struct Parts {
@@ -117,12 +101,12 @@ impl Parts {
     }
 
     /// Node and cell of no choice.
-    fn corner(&self, chance: &mut Chance) -> (usize, usize) {
+    fn corner(&self, chance: &mut Random) -> (usize, usize) {
         (chance.below(self.cells.len()), chance.below(20))
     }
 }
 
-type Spoil = fn(&mut Parts, &mut Chance);
+type Spoil = fn(&mut Parts, &mut Random);
 
 /// Ways to spoil a model, and words of the message; none where a sound model may come out.
 const WAYS: [(&str, Option<&str>, Spoil); 9] = [
@@ -149,9 +133,9 @@ const WAYS: [(&str, Option<&str>, Spoil); 9] = [
             .filter(|&n| inside(&p.nodes[n]))
             .collect();
         let node = all[c.below(all.len())];
-        let size = 12.0 * c.share();
+        let size = c.uniform(0.0, 12.0);
         for k in 0..3 {
-            p.nodes[node][k] += size * (2.0 * c.share() - 1.0);
+            p.nodes[node][k] += c.uniform(-size, size);
         }
     }),
     ("node doubled", Some("no element connects them"), |p, c| {
@@ -219,7 +203,7 @@ fn spoilt_models_are_refused_or_right() {
     let (mut refused, mut right) = (0, 0);
     for (way, words, spoil) in WAYS {
         for seed in 0..20 {
-            let mut chance = Chance(seed * 7919 + 17);
+            let mut chance = Random::new(seed);
             let mut parts = Parts::sound();
             spoil(&mut parts, &mut chance);
             match (parts.solve(), words) {

@@ -53,4 +53,5 @@ pub use element::check_element;
 pub use failure::{CheckFailure, Place};
 pub use isotropy::{IsotropyReport, check_isotropy};
 pub use material::check_material;
+pub use random::Random;
 pub use settings::{ElementCheck, ElementReport, MaterialCheck, MaterialReport};

@@ -2,10 +2,11 @@
 
 /// The generator splitmix64 (Steele, Lea and Flood 2014).
 #[derive(Debug, Clone)]
-pub(super) struct Random(u64);
+pub struct Random(u64);
 
 impl Random {
-    pub(super) const fn new(seed: u64) -> Self {
+    /// A generator whose numbers follow from `seed`.
+    pub const fn new(seed: u64) -> Self {
         Self(seed)
     }
 
@@ -18,13 +19,18 @@ impl Random {
     }
 
     /// Uniform in [low, high).
-    pub(super) fn uniform(&mut self, low: f64, high: f64) -> f64 {
+    pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
         low + unit * (high - low)
     }
 
+    /// Uniform in 0..n; 0 for n = 0.
+    pub fn below(&mut self, n: usize) -> usize {
+        self.uniform(0.0, n as f64) as usize
+    }
+
     /// True with the given probability.
-    pub(super) fn chance(&mut self, probability: f64) -> bool {
+    pub fn chance(&mut self, probability: f64) -> bool {
         self.uniform(0.0, 1.0) < probability
     }
 }

@@ -100,7 +100,7 @@ impl Stage<'_> {
             }
             matrix.upper.clear();
         }
-        self.linear.expect(self.unstable);
+        self.linear.expect(self.signs.negative > 0);
         let factorised = self.factorise();
         // The next matrix is an operator of the driver.
         self.linear.expect(false);
@@ -113,15 +113,16 @@ impl Stage<'_> {
             self.counters.negative_pivots = 1;
         }
         let negative = self.counters.negative_pivots;
-        self.unstable = negative > 0;
-        self.stable_tangent = !self.unstable;
-        let turned = if self.unstable && !singular {
+        self.stable_tangent = negative == 0;
+        let turned = if negative == 0 {
+            false
+        } else if singular {
+            self.signs.turned
+        } else {
             let load = self.reference_load();
             let mut response = load.clone();
             self.precondition(&mut response)?;
             dot(&load, &response) < 0.0
-        } else {
-            self.signs.turned && singular
         };
         Ok(Signs { negative, turned })
     }

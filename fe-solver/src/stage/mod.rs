@@ -55,8 +55,6 @@ pub struct Stage<'m> {
     conditions: Conditions,
     assembler: Assembler,
     linear: DirectSolver,
-    /// Whether the last tangent looked at for its stability was indefinite.
-    unstable: bool,
     /// Whether the factor is that of a positive-definite tangent at the accepted state.
     stable_tangent: bool,
     state: &'m mut StateStore,
@@ -100,7 +98,6 @@ impl<'m> Stage<'m> {
             conditions,
             assembler,
             linear,
-            unstable: false,
             stable_tangent: false,
             state,
             assembled: Assembled::default(),

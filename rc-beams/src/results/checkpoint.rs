@@ -7,6 +7,7 @@
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use crc32fast::Hasher;
 use fe_solver::journal::Entry;
@@ -79,7 +80,7 @@ impl Checkpoint {
             file: file.map_err(|e| folder.error(STEPS, e))?,
             folder: folder.clone(),
             header: Header {
-                program: program(),
+                program: PROGRAM.clone(),
                 input_hash: input_hash.to_owned(),
                 records: 0,
                 bytes: 0,
@@ -118,11 +119,10 @@ impl Checkpoint {
             );
             return Err(refuse(HEADER, reason));
         }
-        let program = program();
-        if header.program != program {
+        if header.program != *PROGRAM {
             let reason = format!(
-                "it was written by another build of the program ({} for {program})",
-                header.program
+                "it was written by another build of the program ({} for {})",
+                header.program, *PROGRAM
             );
             return Err(refuse(HEADER, reason));
         }
@@ -240,8 +240,8 @@ impl Checkpoint {
 }
 
 /// Version and checksum of the executable: only the same program repeats a run to the last bit.
-fn program() -> String {
+static PROGRAM: LazyLock<String> = LazyLock::new(|| {
     let code = std::env::current_exe().and_then(fs::read);
     let sum = code.map_or(0, |code| crc32fast::hash(&code));
     format!("{} {sum:08x}", env!("CARGO_PKG_VERSION"))
-}
+});

@@ -177,9 +177,9 @@ fn run(
         ))
     });
     // Only a run that was stopped from outside can go on.
-    let over = matches!(exit, Exit::Done | Exit::StoppedEarly);
+    let over = || matches!(exit, Exit::Done | Exit::StoppedEarly) && !interrupt.is_set();
     let Some((figures, capacity, verdict)) = figures else {
-        if over {
+        if over() {
             Checkpoint::remove(&folder)?;
         }
         board.print_result(&format!("{:<8}  {kept}", specimen.name));
@@ -245,7 +245,7 @@ fn run(
         max_rss_mb: resources.max_rss_mb(),
     };
     summary.write(&folder)?;
-    if over && !interrupt.is_set() {
+    if over() {
         Checkpoint::remove(&folder)?;
     }
     board.print_result(&match exit {

@@ -184,14 +184,7 @@ impl History {
     ///
     /// [`ResultsError::Output`].
     pub fn settle(&mut self) -> Result<(), ResultsError> {
-        let Self {
-            steps,
-            gauges,
-            iterations,
-        } = self;
-        [iterations, gauges, steps]
-            .into_iter()
-            .try_for_each(Table::settle)
+        self.tables().into_iter().try_for_each(Table::settle)
     }
 
     /// Hands everything so far to the system.
@@ -200,14 +193,12 @@ impl History {
     ///
     /// [`ResultsError::Output`].
     pub fn flush(&mut self) -> Result<(), ResultsError> {
-        let Self {
-            steps,
-            gauges,
-            iterations,
-        } = self;
-        [iterations, gauges, steps]
-            .into_iter()
-            .try_for_each(Table::flush)
+        self.tables().into_iter().try_for_each(Table::flush)
+    }
+
+    /// All tables, that of the steps last: what it holds, the others hold.
+    const fn tables(&mut self) -> [&mut Table; 3] {
+        [&mut self.iterations, &mut self.gauges, &mut self.steps]
     }
 }
 
