@@ -5,12 +5,12 @@ use std::sync::Arc;
 use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
 use fe_core::kinematics::Solid;
-use fe_core::material::{Material, Operator, PointContext};
+use fe_core::material::{Material, Operator, PointContext, Response};
 use fe_core::mesh::{CellKind, NodeId};
 use fe_core::shape::{hex20, quadrature};
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::{Matrix6, Vector3, Vector6};
 
-use crate::kernel::{self, Gradients, MAX_POINTS, PAD};
+use crate::kernel::{self, MAX_POINTS, PAD, Point};
 use crate::points;
 
 /// Integration rule of a hexahedron.
@@ -67,7 +67,7 @@ impl BandWidth {
 #[derive(Debug)]
 pub struct Hex20 {
     nodes: [NodeId; 20],
-    points: Vec<(Gradients, f64)>,
+    points: Vec<Point>,
     positions: Vec<[f64; 3]>,
     band_width: f64,
     law: Arc<dyn Material<Solid>>,
@@ -135,6 +135,27 @@ impl Hex20 {
         })
     }
 
+    /// Asks the law at every point and hands each answer to `take`.
+    fn respond(
+        &self,
+        strains: &[Vector6<f64>],
+        (committed, trial): (&[f64], &mut [f64]),
+        ctx: &EvaluationContext,
+        mut take: impl FnMut(usize, Response<Solid>),
+    ) -> Result<(), ElementError> {
+        let n = self.law.state_len();
+        let ctx = points::context(self.band_width, ctx);
+        for (p, strain) in strains[..self.points.len()].iter().enumerate() {
+            let own = p * n..(p + 1) * n;
+            let response = self
+                .law
+                .update(strain, &committed[own.clone()], &mut trial[own], &ctx)
+                .map_err(|source| ElementError::Material { point: p, source })?;
+            take(p, response);
+        }
+        Ok(())
+    }
+
     /// Volume (mm3).
     pub fn volume(&self) -> f64 {
         self.points.iter().map(|p| p.1).sum()
@@ -171,40 +192,30 @@ impl Element for Hex20 {
         ctx: &EvaluationContext,
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
-        let n = self.law.state_len();
-        let point_ctx = points::context(self.band_width, ctx);
+        let count = self.points.len();
         let u = kernel::by_direction(u);
-        let mut force = [[0.0; PAD]; 3];
-        let mut tangents = [Matrix6::zeros(); MAX_POINTS];
-        for (p, (g, w)) in self.points.iter().enumerate() {
-            let range = p * n..(p + 1) * n;
-            let response = self
-                .law
-                .update(
-                    &kernel::strain(g, &u),
-                    &committed[range.clone()],
-                    &mut trial[range],
-                    &point_ctx,
-                )
-                .map_err(|source| ElementError::Material { point: p, source })?;
-            kernel::add_force(g, &response.stress, *w, &mut force);
-            if ctx.operator != Operator::None {
+        let mut strains = [Vector6::zeros(); MAX_POINTS];
+        kernel::strains(&self.points, &u, &mut strains[..count]);
+        let mut stresses = strains;
+        let stresses = &mut stresses[..count];
+        if ctx.operator == Operator::None {
+            self.respond(&strains, (committed, trial), ctx, |p, response| {
+                stresses[p] = response.stress;
+            })?;
+        } else {
+            let mut tangents = [Matrix6::zeros(); MAX_POINTS];
+            self.respond(&strains, (committed, trial), ctx, |p, response| {
+                stresses[p] = response.stress;
                 tangents[p] = response.tangent;
-            }
+            })?;
+            let symmetric = !(self.unsymmetric() && ctx.operator == Operator::Tangent);
+            kernel::stiffness(&self.points, &tangents[..count], symmetric, out.stiffness);
         }
+        let force = kernel::force(&self.points, stresses);
         for a in 0..20 {
             for k in 0..3 {
                 out.force[3 * a + k] += force[k][a];
             }
-        }
-        if ctx.operator != Operator::None {
-            let symmetric = !(self.unsymmetric() && ctx.operator == Operator::Tangent);
-            kernel::stiffness(
-                &self.points,
-                &tangents[..self.points.len()],
-                symmetric,
-                out.stiffness,
-            );
         }
         Ok(())
     }
@@ -223,7 +234,7 @@ impl Element for Hex20 {
 
     fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
         let u = kernel::by_direction(u);
-        let points = self.points.iter().map(|(g, w)| (*w, kernel::strain(g, &u)));
+        let points = self.points.iter().map(|p| (p.1, kernel::strain(p, &u)));
         points::free_energy(self.law.as_ref(), self.band_width, state, points)
     }
 
@@ -235,7 +246,7 @@ impl Element for Hex20 {
     ) -> Result<(), ElementError> {
         let u = kernel::by_direction(u);
         let places = self.points.iter().zip(&self.positions);
-        let points = places.map(|((g, w), x)| (*x, *w, kernel::strain(g, &u)));
+        let points = places.map(|(p, x)| (*x, p.1, kernel::strain(p, &u)));
         points::sample(self.law.as_ref(), self.band_width, state, points, visit)
     }
 }

@@ -3,7 +3,8 @@
 //! B has three non-zeros per column, so w D B is formed from the gradients by component (6 rows, three
 //! displacement directions of 20 nodes), and each 3 x 3 block row of B^T (w D B) is accumulated over the
 //! points in registers; eight points at a time, so that w D B stays in the innermost cache. The loops are
-//! written once and compiled for the vector unit found at run time.
+//! written once and compiled for the vector unit found at run time; they hold no closures, which the compiler may
+//! leave outside and compile for the least machine.
 
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
@@ -17,6 +18,9 @@ const CHUNK: usize = 8;
 
 /// Gradients dN/dx, dN/dy, dN/dz (1/mm) of the 20 nodes at one point, by direction.
 pub(crate) type Gradients = [[f64; PAD]; 3];
+
+/// Gradients and weight times Jacobian determinant (mm3) of one point.
+pub(crate) type Point = (Gradients, f64);
 
 /// Voigt rows that the derivatives along x, y, z of displacement direction `k` enter:
 /// direction x gives xx, xy, xz; y gives xy, yy, yz; z gives xz, yz, zz.
@@ -33,39 +37,102 @@ pub(crate) fn by_direction(u: &[f64]) -> Gradients {
     out
 }
 
-/// Strain B u (Voigt, engineering shear).
-#[inline]
-pub(crate) fn strain(g: &Gradients, u: &Gradients) -> Vector6<f64> {
-    let mut h = [[0.0; 3]; 3];
-    for k in 0..3 {
-        for d in 0..3 {
-            // Eight partial sums in a fixed order: the compiler can vectorise them.
-            let mut sums = [0.0; 8];
-            for chunk in 0..PAD / 8 {
-                for lane in 0..8 {
-                    sums[lane] += u[k][8 * chunk + lane] * g[d][8 * chunk + lane];
-                }
-            }
-            h[k][d] = sums.iter().sum();
-        }
-    }
-    Vector6::new(
-        h[0][0],
-        h[1][1],
-        h[2][2],
-        h[0][1] + h[1][0],
-        h[1][2] + h[2][1],
-        h[0][2] + h[2][0],
-    )
+/// Strains B u (Voigt, engineering shear) at the points.
+pub(crate) fn strains(points: &[Point], u: &Gradients, out: &mut [Vector6<f64>]) {
+    Arch::new().dispatch(Strains { points, u, out });
 }
 
-/// Adds B^T sigma w to a force kept by direction.
-#[inline]
-pub(crate) fn add_force(g: &Gradients, stress: &Vector6<f64>, weight: f64, force: &mut Gradients) {
-    for k in 0..3 {
-        let s = ROWS[k].map(|row| weight * stress[row]);
-        for a in 0..PAD {
-            force[k][a] += g[0][a] * s[0] + g[1][a] * s[1] + g[2][a] * s[2];
+/// Strain B u at one point.
+pub(crate) fn strain(point: &Point, u: &Gradients) -> Vector6<f64> {
+    let mut out = [Vector6::zeros()];
+    strains(std::slice::from_ref(point), u, &mut out);
+    out[0]
+}
+
+struct Strains<'a> {
+    points: &'a [Point],
+    u: &'a Gradients,
+    out: &'a mut [Vector6<f64>],
+}
+
+impl WithSimd for Strains<'_> {
+    type Output = ();
+
+    // Inlining is what compiles the body for the vector unit of the caller.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let [ux, uy, uz] = self.u;
+        let u = [
+            S::as_simd_f64s(ux).0,
+            S::as_simd_f64s(uy).0,
+            S::as_simd_f64s(uz).0,
+        ];
+        for ((g, _), strain) in self.points.iter().zip(self.out) {
+            // Displacement gradient du_k/dx_d.
+            let mut h = [[0.0; 3]; 3];
+            for d in 0..3 {
+                let g = S::as_simd_f64s(&g[d]).0;
+                for k in 0..3 {
+                    let mut sum = simd.splat_f64s(0.0);
+                    for (x, y) in u[k].iter().zip(g) {
+                        sum = simd.mul_add_f64s(*x, *y, sum);
+                    }
+                    h[k][d] = simd.reduce_sum_f64s(sum);
+                }
+            }
+            *strain = Vector6::new(
+                h[0][0],
+                h[1][1],
+                h[2][2],
+                h[0][1] + h[1][0],
+                h[1][2] + h[2][1],
+                h[0][2] + h[2][0],
+            );
+        }
+    }
+}
+
+/// Sum over the points of w B^T sigma, by direction.
+pub(crate) fn force(points: &[Point], stresses: &[Vector6<f64>]) -> Gradients {
+    let mut out = [[0.0; PAD]; 3];
+    Arch::new().dispatch(Force {
+        points,
+        stresses,
+        out: &mut out,
+    });
+    out
+}
+
+struct Force<'a> {
+    points: &'a [Point],
+    stresses: &'a [Vector6<f64>],
+    out: &'a mut Gradients,
+}
+
+impl WithSimd for Force<'_> {
+    type Output = ();
+
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        for ((g, w), stress) in self.points.iter().zip(self.stresses) {
+            let (gx, gy, gz) = (
+                S::as_simd_f64s(&g[0]).0,
+                S::as_simd_f64s(&g[1]).0,
+                S::as_simd_f64s(&g[2]).0,
+            );
+            for k in 0..3 {
+                let sx = simd.splat_f64s(w * stress[ROWS[k][0]]);
+                let sy = simd.splat_f64s(w * stress[ROWS[k][1]]);
+                let sz = simd.splat_f64s(w * stress[ROWS[k][2]]);
+                let out = S::as_mut_simd_f64s(&mut self.out[k]).0;
+                for (v, f) in out.iter_mut().enumerate() {
+                    let sum = simd.mul_add_f64s(gx[v], sx, *f);
+                    let sum = simd.mul_add_f64s(gy[v], sy, sum);
+                    *f = simd.mul_add_f64s(gz[v], sz, sum);
+                }
+            }
         }
     }
 }
@@ -73,25 +140,21 @@ pub(crate) fn add_force(g: &Gradients, stress: &Vector6<f64>, weight: f64, force
 /// Adds the sum over the points of w B^T D B to a 60 x 60 row-major matrix: to the upper triangle if
 /// `symmetric`, else to all of it.
 pub(crate) fn stiffness(
-    points: &[(Gradients, f64)],
+    points: &[Point],
     tangents: &[Matrix6<f64>],
     symmetric: bool,
     out: &mut [f64],
 ) {
-    let arch = Arch::new();
-    for (points, tangents) in points.chunks(CHUNK).zip(tangents.chunks(CHUNK)) {
-        arch.dispatch(Stiffness {
-            points,
-            tangents,
-            symmetric,
-            out,
-        });
-    }
+    Arch::new().dispatch(Stiffness {
+        points,
+        tangents,
+        symmetric,
+        out,
+    });
 }
 
-/// The contribution of at most [`CHUNK`] points.
 struct Stiffness<'a> {
-    points: &'a [(Gradients, f64)],
+    points: &'a [Point],
     tangents: &'a [Matrix6<f64>],
     symmetric: bool,
     out: &'a mut [f64],
@@ -104,59 +167,87 @@ impl WithSimd for Stiffness<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self {
-            points,
-            tangents,
-            symmetric,
-            out,
-        } = self;
-        // w D B by Voigt row and displacement direction.
         #[allow(clippy::large_stack_arrays)]
         let mut db = [[[[0.0_f64; PAD]; 3]; 6]; CHUNK];
-        for ((g, w), (d, t)) in points.iter().zip(tangents.iter().zip(&mut db)) {
-            let (gx, gy, gz) = (
-                S::as_simd_f64s(&g[0]).0,
-                S::as_simd_f64s(&g[1]).0,
-                S::as_simd_f64s(&g[2]).0,
-            );
-            for i in 0..6 {
-                for k in 0..3 {
-                    let c = ROWS[k].map(|col| simd.splat_f64s(w * d[(i, col)]));
-                    let row = S::as_mut_simd_f64s(&mut t[i][k]).0;
-                    for (v, r) in row.iter_mut().enumerate() {
-                        let sum = simd.mul_f64s(c[0], gx[v]);
-                        let sum = simd.mul_add_f64s(c[1], gy[v], sum);
-                        *r = simd.mul_add_f64s(c[2], gz[v], sum);
-                    }
+        let chunks = self.points.chunks(CHUNK).zip(self.tangents.chunks(CHUNK));
+        for (points, tangents) in chunks {
+            products(simd, points, tangents, &mut db);
+            accumulate(simd, points, &db, self.symmetric, self.out);
+        }
+    }
+}
+
+/// w D B of one point, by Voigt row and displacement direction.
+type Product = [[[f64; PAD]; 3]; 6];
+
+#[allow(clippy::inline_always)]
+#[inline(always)]
+fn products<S: Simd>(simd: S, points: &[Point], tangents: &[Matrix6<f64>], db: &mut [Product]) {
+    for ((g, w), (d, t)) in points.iter().zip(tangents.iter().zip(db)) {
+        let (gx, gy, gz) = (
+            S::as_simd_f64s(&g[0]).0,
+            S::as_simd_f64s(&g[1]).0,
+            S::as_simd_f64s(&g[2]).0,
+        );
+        for i in 0..6 {
+            for k in 0..3 {
+                let c = [
+                    simd.splat_f64s(w * d[(i, ROWS[k][0])]),
+                    simd.splat_f64s(w * d[(i, ROWS[k][1])]),
+                    simd.splat_f64s(w * d[(i, ROWS[k][2])]),
+                ];
+                let row = S::as_mut_simd_f64s(&mut t[i][k]).0;
+                for (v, r) in row.iter_mut().enumerate() {
+                    let sum = simd.mul_f64s(c[0], gx[v]);
+                    let sum = simd.mul_add_f64s(c[1], gy[v], sum);
+                    *r = simd.mul_add_f64s(c[2], gz[v], sum);
                 }
             }
         }
-        let lanes = S::F64_LANES;
-        for a in 0..20 {
-            let first = if symmetric { a / lanes } else { 0 };
-            for v in first..20_usize.div_ceil(lanes) {
-                let mut acc = [[simd.splat_f64s(0.0); 3]; 3];
-                for ((g, _), t) in points.iter().zip(&db) {
-                    let s = [g[0][a], g[1][a], g[2][a]].map(|x| simd.splat_f64s(x));
-                    for l in 0..3 {
-                        let row: [S::f64s; 6] =
-                            std::array::from_fn(|i| S::as_simd_f64s(&t[i][l]).0[v]);
-                        for k in 0..3 {
-                            for d in 0..3 {
-                                acc[k][l] = simd.mul_add_f64s(s[d], row[ROWS[k][d]], acc[k][l]);
-                            }
+    }
+}
+
+/// Adds B^T (w D B) of the points.
+#[allow(clippy::inline_always)]
+#[inline(always)]
+fn accumulate<S: Simd>(
+    simd: S,
+    points: &[Point],
+    db: &[Product],
+    symmetric: bool,
+    out: &mut [f64],
+) {
+    let lanes = S::F64_LANES;
+    for a in 0..20 {
+        let first = if symmetric { a / lanes } else { 0 };
+        for v in first..20_usize.div_ceil(lanes) {
+            let mut acc = [[simd.splat_f64s(0.0); 3]; 3];
+            for ((g, _), t) in points.iter().zip(db) {
+                let s = [
+                    simd.splat_f64s(g[0][a]),
+                    simd.splat_f64s(g[1][a]),
+                    simd.splat_f64s(g[2][a]),
+                ];
+                for l in 0..3 {
+                    let mut row = [simd.splat_f64s(0.0); 6];
+                    for i in 0..6 {
+                        row[i] = S::as_simd_f64s(&t[i][l]).0[v];
+                    }
+                    for k in 0..3 {
+                        for d in 0..3 {
+                            acc[k][l] = simd.mul_add_f64s(s[d], row[ROWS[k][d]], acc[k][l]);
                         }
                     }
                 }
-                for k in 0..3 {
-                    let row = &mut out[(3 * a + k) * 60..(3 * a + k + 1) * 60];
-                    for l in 0..3 {
-                        let values: &[f64] = pulp::bytemuck::cast_slice(&acc[k][l..=l]);
-                        for (lane, value) in values.iter().enumerate() {
-                            let b = v * lanes + lane;
-                            if b < 20 {
-                                row[3 * b + l] += value;
-                            }
+            }
+            for k in 0..3 {
+                let row = &mut out[(3 * a + k) * 60..(3 * a + k + 1) * 60];
+                for l in 0..3 {
+                    let values: &[f64] = pulp::bytemuck::cast_slice(&acc[k][l..=l]);
+                    for (lane, value) in values.iter().enumerate() {
+                        let b = v * lanes + lane;
+                        if b < 20 {
+                            row[3 * b + l] += value;
                         }
                     }
                 }
@@ -222,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn strain_agrees_with_the_strain_matrix() {
+    fn strain_and_force_agree_with_the_strain_matrix() {
         let mut g = [[0.0; PAD]; 3];
         for (k, row) in g.iter_mut().enumerate() {
             for a in 0..20 {
@@ -231,6 +322,12 @@ mod tests {
         }
         let u: Vec<f64> = (0..60).map(value).collect();
         let e = strain_matrix(&g) * nalgebra::SVector::<f64, 60>::from_column_slice(&u);
-        assert!((strain(&g, &by_direction(&u)) - e).norm() < 1e-12);
+        assert!((strain(&(g, 1.0), &by_direction(&u)) - e).norm() < 1e-12);
+        let s = Vector6::from_fn(|i, _| value(2000 + i));
+        let f = strain_matrix(&g).transpose() * s * 0.7;
+        let found = force(&[(g, 0.7)], &[s]);
+        for i in 0..60 {
+            assert!((found[i % 3][i / 3] - f[i]).abs() < 1e-12);
+        }
     }
 }

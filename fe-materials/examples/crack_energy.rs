@@ -3,13 +3,16 @@
 //! `cargo run --release -p fe-materials --example crack_energy`
 
 use fe_materials::concrete::ConcreteScalars;
-use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
+use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters, TensionSoftening};
 use fe_materials::material::PointContext;
 use fe_materials::point::{Control, PointDriver, Segment};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let c = ConcreteScalars::from_characteristic(30.0)?;
-    let p = FixedCrackParameters::from_strength(c.fcm_mpa, c.fctm_mpa, c.young_mpa);
+    let p = FixedCrackParameters {
+        tension_softening: TensionSoftening::Linear,
+        ..FixedCrackParameters::from_strength(c.fcm_mpa, c.fctm_mpa, c.young_mpa)
+    };
     let law = FixedCrack::new(p, None)?;
     println!("fracture energy {:.5} N/mm", p.fracture_energy);
     for width in [10.0, 30.0, 100.0] {

@@ -8,7 +8,7 @@ use fe_core::grid::GridBuilder;
 use fe_core::model::{Conditions, Model};
 use fe_core::state::StateStore;
 use fe_elements::{BandWidth, Hex20, HexRule};
-use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
+use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters, TensionSoftening};
 use fe_solver::control::StepControl;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings};
 use fe_solver::recorder::{Continue, Recorder, StepView};
@@ -41,6 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let coords = nodes.map(|n| mesh.nodes()[n]);
         let mut concrete = FixedCrackParameters::from_strength(30.0, strength, 30_000.0);
         (concrete.poisson, concrete.fracture_energy) = (0.0, ENERGY);
+        concrete.tension_softening = TensionSoftening::Linear;
         let law = Arc::new(FixedCrack::new(concrete, None)?);
         let (rule, band) = (HexRule::Full, BandWidth::Fixed(100.0));
         elements.push(Box::new(Hex20::new(nodes, &coords, rule, law, band)?));

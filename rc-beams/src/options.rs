@@ -27,6 +27,10 @@ pub struct RunOptions {
     #[arg(long, value_enum, default_value_t)]
     pub law: Law,
 
+    /// Ingredients of the fixed-crack law
+    #[command(flatten)]
+    pub cracks: Cracks,
+
     /// Bond of the sheets
     #[arg(long, value_enum, default_value_t)]
     pub bond: Bond,
@@ -79,6 +83,64 @@ pub struct RunOptions {
     pub fields: Fields,
 }
 
+/// Ingredients of the fixed-crack law; those not given are of the preset.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Args)]
+pub struct Cracks {
+    /// Softening in tension; without it, that of the preset
+    #[arg(long, value_enum)]
+    pub tension_softening: Option<TensionSoftening>,
+
+    /// Shear across cracks; without it, that of the preset
+    #[arg(long, value_enum)]
+    pub shear_transfer: Option<ShearTransfer>,
+
+    /// What cracks do to the compression across them; without it, that of the preset
+    #[arg(long, value_enum)]
+    pub compression_softening: Option<CompressionSoftening>,
+
+    /// Least shear stiffness of open cracks over that of sound concrete; without it, that of the preset
+    #[arg(long, value_name = "SHARE", value_parser = shear_floor, allow_negative_numbers = true)]
+    pub shear_floor: Option<f64>,
+
+    /// Crack-band width over the side of the square of the same area as an element; without it, that of the preset
+    #[arg(long, value_name = "FACTOR", value_parser = band_factor, allow_negative_numbers = true)]
+    pub band_factor: Option<f64>,
+
+    /// Largest aggregate (mm)
+    #[arg(long, value_name = "MM", value_parser = aggregate, allow_negative_numbers = true)]
+    pub aggregate_mm: Option<f64>,
+}
+
+/// Softening in tension.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum TensionSoftening {
+    /// A line
+    Linear,
+    /// An exponential
+    Exponential,
+}
+
+/// Shear across cracks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum ShearTransfer {
+    /// As far as the crack is still bridged in tension
+    Damage,
+    /// That and aggregate interlock
+    Interlock,
+}
+
+/// What cracks do to the compression across them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum CompressionSoftening {
+    /// Nothing
+    None,
+    /// The strength falls with the strain across
+    VecchioCollins,
+}
+
 /// Set of modelling choices.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
@@ -88,7 +150,8 @@ pub enum Preset {
     Physical,
     /// As physical, but with the sheets of the reference: fibres of the soffit along the beam, shear modulus E/2
     Reference,
-    /// The reported strength is characteristic (mean: 8 MPa more); reduced integration, no dowel action
+    /// The reported strength is characteristic (mean: 8 MPa more); reduced integration, no dowel action, no interlock,
+    /// no compression softening, linear softening in tension, half the band width
     Characteristic,
 }
 
@@ -272,6 +335,24 @@ where
     let count = text.parse().ok().filter(|count| range.contains(count));
     let (low, high) = (range.start(), range.end());
     count.ok_or_else(|| format!("allowed: whole numbers from {low} to {high}"))
+}
+
+/// A number of the command line within a range.
+fn number(text: &str, range: RangeInclusive<f64>) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value| range.contains(value));
+    value.ok_or_else(|| format!("allowed: {} to {}", range.start(), range.end()))
+}
+
+fn shear_floor(text: &str) -> Result<f64, String> {
+    number(text, 1e-6..=1.0)
+}
+
+fn band_factor(text: &str) -> Result<f64, String> {
+    number(text, 0.25..=2.0)
+}
+
+fn aggregate(text: &str) -> Result<f64, String> {
+    number(text, 1.0..=100.0)
 }
 
 /// A deflection of the command line (mm).

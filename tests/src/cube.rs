@@ -45,8 +45,6 @@ pub struct Case {
 pub enum Softening {
     /// ft exp(-(e - e0)/(ef - e0)), ef = GF/(h ft) + e0/2.
     Exponential,
-    /// ft (eu - e)/(eu - e0), eu = 2 GF/(h ft).
-    Linear,
     /// 0.6 ft (1 - e/0.01), at once.
     Stiffening,
 }
@@ -95,7 +93,6 @@ impl Softening {
         let energy = concrete::fracture_energy() / (EDGE * strength);
         match self {
             Self::Exponential => strength * (-(strain - onset) / (energy - 0.5 * onset)).exp(),
-            Self::Linear => (strength * (2.0 * energy - strain) / (2.0 * energy - onset)).max(0.0),
             Self::Stiffening => 0.6 * strength * (1.0 - strain / 0.01),
         }
     }
@@ -134,7 +131,7 @@ pub fn cases() -> Result<Vec<Case>, Failure> {
         Case {
             name: "fixed crack",
             law: Arc::new(FixedCrack::new(cracks, None)?),
-            tension: Some(Softening::Linear),
+            tension: Some(Softening::Exponential),
             crushing: Crushing::Line,
         },
         Case {

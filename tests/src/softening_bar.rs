@@ -12,7 +12,7 @@ use fe_core::material::Material;
 use fe_core::model::{Conditions, Model};
 use fe_elements::{BandWidth, Hex20, HexRule};
 use fe_materials::Elastic;
-use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
+use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters, TensionSoftening};
 use nalgebra::Vector3;
 
 use crate::conditions::{hold, push_faces};
@@ -33,6 +33,7 @@ pub const AREA: f64 = 100.0;
 fn concrete() -> FixedCrack {
     let parameters = FixedCrackParameters {
         poisson: 0.0,
+        tension_softening: TensionSoftening::Linear,
         fracture_energy: ENERGY,
         ..FixedCrackParameters::from_strength(30.0, STRENGTH, YOUNG)
     };

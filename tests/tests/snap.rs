@@ -14,7 +14,7 @@ use fe_core::material::Material;
 use fe_core::model::{Conditions, Model};
 use fe_elements::{BandWidth, Hex20, HexRule};
 use fe_materials::Elastic;
-use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
+use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters, TensionSoftening};
 use fe_solver::control::StepControl;
 use fe_solver::secant::SecantAnderson;
 use fe_tests::conditions::hold;
@@ -38,6 +38,7 @@ fn bars() -> Model {
     let mesh = grid.finish().unwrap();
     let parameters = FixedCrackParameters {
         poisson: 0.0,
+        tension_softening: TensionSoftening::Linear,
         fracture_energy: 0.08,
         ..FixedCrackParameters::from_strength(30.0, STRENGTH, YOUNG)
     };

@@ -9,7 +9,9 @@ use crate::concrete::{
     Associated, Calibration, Isochoric, Objective, Ottosen, Reference, ReferenceParameters,
     ShearRetention, TensionStiffening,
 };
-use crate::fixed_crack::{FixedCrack, FixedCrackParameters};
+use crate::fixed_crack::{
+    CompressionSoftening, FixedCrack, FixedCrackParameters, ShearTransfer, TensionSoftening,
+};
 use crate::{Biso, Elastic, Hardening, Lamina, LaminaParameters, Laminate, Ply, VonMises};
 
 /// A law of this crate with its parameters; units in the names of the fields.
@@ -97,6 +99,15 @@ pub enum LawCase {
         /// Least shear factor of open cracks (-).
         #[serde(default)]
         shear_floor: Option<f64>,
+        /// Softening in tension.
+        #[serde(default)]
+        tension_softening: TensionSoftening,
+        /// What carries shear across open cracks.
+        #[serde(default)]
+        shear_transfer: Option<ShearTransfer>,
+        /// What cracks do to the compression across them.
+        #[serde(default)]
+        compression_softening: CompressionSoftening,
         /// Whether cracks open on the Ottosen surface too.
         #[serde(default = "yes")]
         ottosen_onset: bool,
@@ -223,6 +234,9 @@ impl LawCase {
                 concrete,
                 crushing_energy_n_per_mm,
                 shear_floor,
+                tension_softening,
+                shear_transfer,
+                compression_softening,
                 ottosen_onset,
                 ..
             } => {
@@ -235,6 +249,9 @@ impl LawCase {
                     fracture_energy: c.fracture_energy,
                     crushing_energy: crushing_energy_n_per_mm.unwrap_or(default.crushing_energy),
                     shear_floor: shear_floor.unwrap_or(default.shear_floor),
+                    tension_softening: *tension_softening,
+                    shear_transfer: shear_transfer.unwrap_or(default.shear_transfer),
+                    compression_softening: *compression_softening,
                     ..default
                 };
                 let calibration = Calibration::model_code(c.fcm_mpa, c.fctm_mpa);

@@ -4,22 +4,33 @@ use fe_core::material::MaterialError;
 
 use super::FixedCrackParameters;
 
-/// Smallest ratio of the end of softening to the strain at cracking: keeps the softening branch
-/// from falling steeper than about five times the elastic slope.
-const MIN_SOFTENING_RATIO: f64 = 1.2;
+/// Softening branches fall no steeper than this many times the elastic slope.
+const STEEPEST: f64 = 5.0;
 
 /// Share of the compressive strength that crushed concrete keeps (Nakamura and Higai 2001 use 0.1
 /// to 0.2; assumed 0.1).
 pub(super) const RESIDUAL_COMPRESSION: f64 = 0.1;
 
-/// Linear tension softening of one axis: sigma = ft (e_u - k)/(e_u - e_cr) with the crack band
-/// e_u = 2 G_F/(ft h) (Bazant and Oh 1983).
+/// Tension softening of one axis from e_cr = ft/E on, regularised by the crack band h (Bazant and Oh 1983): the area
+/// under the curve, rise included, is G_F/h.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
+pub enum TensionSoftening {
+    /// sigma = ft (e_u - k)/(e_u - e_cr), e_u = 2 G_F/(ft h).
+    Linear,
+    /// sigma = ft exp(-(k - e_cr)/e_f), e_f = G_F/(ft h) - e_cr/2.
+    #[default]
+    Exponential,
+}
+
+/// Softening with the numbers of a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tension {
+    shape: TensionSoftening,
     strength: f64,
     young: f64,
     cracking: f64,
-    ultimate: f64,
+    /// e_u - e_cr or e_f: strength over slope at the start.
+    reach: f64,
 }
 
 impl Tension {
@@ -29,41 +40,59 @@ impl Tension {
         band_width: f64,
     ) -> Result<Self, MaterialError> {
         let cracking = strength / p.young_mpa;
-        let ultimate = 2.0 * p.fracture_energy / (strength * band_width);
-        if ultimate < MIN_SOFTENING_RATIO * cracking {
+        // (area under the softening branch)/(strength reach), reach/cracking at the steepest.
+        let share = match p.tension_softening {
+            TensionSoftening::Linear => 0.5,
+            TensionSoftening::Exponential => 1.0,
+        };
+        let reach = (p.fracture_energy / (strength * band_width) - 0.5 * cracking) / share;
+        let least = cracking / STEEPEST;
+        if reach < least {
             return Err(MaterialError::BandTooWide {
                 law: super::NAME,
                 band_width,
-                limit: 2.0 * p.fracture_energy / (strength * MIN_SOFTENING_RATIO * cracking),
+                limit: p.fracture_energy / (strength * (share * least + 0.5 * cracking)),
                 reason: "tension softening would snap back",
             });
         }
         Ok(Self {
+            shape: p.tension_softening,
             strength,
             young: p.young_mpa,
             cracking,
-            ultimate,
+            reach,
         })
+    }
+
+    /// Stress of the softening branch and its slope.
+    fn softening(&self, k: f64) -> (f64, f64) {
+        let x = (k - self.cracking) / self.reach;
+        match self.shape {
+            TensionSoftening::Linear if x >= 1.0 => (0.0, 0.0),
+            TensionSoftening::Linear => (self.strength * (1.0 - x), -self.strength / self.reach),
+            TensionSoftening::Exponential => {
+                let stress = self.strength * (-x).exp();
+                (stress, -stress / self.reach)
+            }
+        }
     }
 
     /// Secant modulus of the envelope at a history strain k >= 0.
     pub(super) fn secant(&self, k: f64) -> f64 {
         if k <= self.cracking {
             self.young
-        } else if k >= self.ultimate {
-            0.0
         } else {
-            self.strength * (self.ultimate - k) / ((self.ultimate - self.cracking) * k)
+            self.softening(k).0 / k
         }
     }
 
     /// Derivative of [`Self::secant`] with respect to k.
     pub(super) fn secant_slope(&self, k: f64) -> f64 {
-        if k <= self.cracking || k >= self.ultimate {
-            0.0
-        } else {
-            -self.strength * self.ultimate / ((self.ultimate - self.cracking) * k * k)
+        if k <= self.cracking {
+            return 0.0;
         }
+        let (stress, slope) = self.softening(k);
+        (slope - stress / k) / k
     }
 }
 

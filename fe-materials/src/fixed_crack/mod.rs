@@ -12,20 +12,24 @@
 //!
 //! **Cracked**, in the frozen axes, with the histories kt_i = max e_i and kc_i = max(-e_i),
 //!
-//! sigma_i = Et(kt_i) e_i for e_i >= 0,  Ec(kc_i) e_i for e_i < 0,
-//! tau_ij = b_ij G0 gamma_ij,  b_ij = max(b_min, min over the two axes of min(Et(kt), Ec(kc))/E).
+//! sigma_i = Et(kt_i) e_i for e_i >= 0,  beta_i Ec(kc_i) e_i for e_i < 0,
+//! tau_ij = b_ij G0 gamma_ij,  b_ij = max(b_min, min over the two axes of min(Et(kt), Ec(kc))/E),
 //!
-//! The shear factor follows from the history only and never recovers when a crack closes (damage-based
-//! shear retention as in DIANA, made irreversible): every term of the free energy
-//! psi = 1/2 sum Esec_i e_i^2 + 1/2 sum b_ij G0 gamma_ij^2 falls with growing history at fixed strain, so
+//! or more where aggregate interlocks, see [`ShearTransfer`]. beta_i <= 1 is the
+//! [compression softening](CompressionSoftening) by the cracks across axis i.
+//!
+//! All factors follow from the history only and never recover when a crack closes: every term of the free energy
+//! psi = 1/2 sum Esec_i e_i^2 + sum int tau_ij dgamma_ij falls with growing history at fixed strain, so
 //! the cracked law never creates energy. Taking b from the current secant instead would: when a crack
 //! closes the factor jumps back to one with a large shear strain standing.
 //!
 //! The growth of kt and kc in a step is scaled by the relaxation a of the context (backward Euler of
 //! k' = <e - k>/tau, a = dt/(tau + dt)).
 
+mod compression_softening;
 mod cracked;
 mod curves;
+mod shear_transfer;
 mod uncracked;
 
 #[cfg(test)]
@@ -36,9 +40,12 @@ use fe_core::material::{
     Material, MaterialError, Operator, PointContext, PointReport, Response, StateVar,
 };
 use fe_core::voigt::strain_transform;
-use nalgebra::{Matrix3, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
+pub use compression_softening::CompressionSoftening;
+pub use curves::TensionSoftening;
 use curves::{Compression, Tension};
+pub use shear_transfer::ShearTransfer;
 
 const NAME: &str = "fixed crack";
 
@@ -66,7 +73,16 @@ pub struct FixedCrackParameters {
     /// Floor b_min of the shear factor of open cracks (-); assumed, and without influence on beams whose
     /// bars have dowel action between 1e-5 and 1e-3.
     pub shear_floor: f64,
+    /// Shape of the softening in tension.
+    pub tension_softening: TensionSoftening,
+    /// What carries shear across open cracks.
+    pub shear_transfer: ShearTransfer,
+    /// What cracks do to the compression across them.
+    pub compression_softening: CompressionSoftening,
 }
+
+/// Largest aggregate (mm) where none is given: 3/4 inch, usual in the United States (assumed).
+pub const AGGREGATE_MM: f64 = 19.0;
 
 impl FixedCrackParameters {
     /// Parameters from a mean cylinder strength and a measured modulus.
@@ -84,6 +100,11 @@ impl FixedCrackParameters {
             fracture_energy,
             crushing_energy: 250.0 * fracture_energy,
             shear_floor: 1e-4,
+            tension_softening: TensionSoftening::default(),
+            shear_transfer: ShearTransfer::Interlock {
+                aggregate_mm: AGGREGATE_MM,
+            },
+            compression_softening: CompressionSoftening::default(),
         }
     }
 
@@ -107,6 +128,7 @@ impl FixedCrackParameters {
         if !(self.shear_floor > 0.0 && self.shear_floor <= 1.0) {
             return Err(out_of_range("shear_floor", self.shear_floor, "-", "(0, 1]"));
         }
+        self.shear_transfer.check()?;
         let plasticity = self.young_mpa * self.eps_c1 / self.fcm_mpa;
         if plasticity <= 1.0 {
             return Err(MaterialError::Parameter {
@@ -267,14 +289,14 @@ impl Material<Solid> for FixedCrack {
             });
         }
         let mut state = State::read(committed);
-        let response = if state.cracked {
-            self.cracked(strain, &mut state, ctx, false)?
-        } else {
-            match self.uncracked(strain, &mut state, ctx)? {
-                Some(response) => response,
-                None => self.cracked(strain, &mut state, ctx, true)?,
-            }
+        let mut response = Response {
+            stress: Vector6::zeros(),
+            tangent: Matrix6::zeros(),
         };
+        let onset = !state.cracked;
+        if !(onset && self.uncracked(strain, &mut state, ctx, &mut response)?) {
+            self.cracked(strain, &mut state, ctx, onset, &mut response)?;
+        }
         state.write(trial);
         Ok(response)
     }

@@ -4,7 +4,9 @@ use fe_core::material::{Material, MaterialError, Operator, PointContext};
 use fe_core::testing::{MaterialCheck, check_material};
 use nalgebra::Vector6;
 
-use super::{FixedCrack, FixedCrackParameters};
+use super::{
+    CompressionSoftening, FixedCrack, FixedCrackParameters, ShearTransfer, TensionSoftening,
+};
 use crate::concrete::{Calibration, Ottosen};
 
 const WIDTH: f64 = 30.0;
@@ -14,10 +16,13 @@ fn parameters() -> FixedCrackParameters {
 }
 
 fn law(poisson: f64) -> FixedCrack {
-    let p = FixedCrackParameters {
+    build(FixedCrackParameters {
         poisson,
         ..parameters()
-    };
+    })
+}
+
+fn build(p: FixedCrackParameters) -> FixedCrack {
     let onset = Ottosen::new(&Calibration::model_code(p.fcm_mpa, p.ft_mpa)).unwrap();
     FixedCrack::new(p, Some(onset)).unwrap()
 }
@@ -56,21 +61,79 @@ fn axial(e: f64) -> Vector6<f64> {
     Vector6::new(e, 0.0, 0.0, 0.0, 0.0, 0.0)
 }
 
-/// Crack band (Bazant and Oh 1983): opening a crack fully dissipates G_F/h.
+/// Crack band (Bazant and Oh 1983): opening a crack fully dissipates G_F/h, for every shape of the softening.
 #[test]
 fn a_crack_dissipates_the_fracture_energy() {
-    let p = parameters();
-    let mut point = Point::new(law(0.0));
-    let end = 2.0 * p.fracture_energy / (p.ft_mpa * WIDTH);
-    let steps = 40_000;
-    let (mut work, mut last) = (0.0, 0.0);
-    for i in 1..=steps {
-        let s = point.stress(axial(1.01 * end * f64::from(i) / f64::from(steps)))[0];
-        work += 0.5 * (s + last) * 1.01 * end / f64::from(steps);
-        last = s;
+    for (tension_softening, ends) in [
+        (TensionSoftening::Linear, 1.01),
+        (TensionSoftening::Exponential, 8.0),
+    ] {
+        let p = FixedCrackParameters {
+            poisson: 0.0,
+            tension_softening,
+            ..parameters()
+        };
+        let mut point = Point::new(build(p));
+        let end = ends * 2.0 * p.fracture_energy / (p.ft_mpa * WIDTH);
+        let steps = 40_000;
+        let (mut work, mut last) = (0.0, 0.0);
+        for i in 1..=steps {
+            let s = point.stress(axial(end * f64::from(i) / f64::from(steps)))[0];
+            work += 0.5 * (s + last) * end / f64::from(steps);
+            last = s;
+        }
+        assert!(last.abs() < 1e-6);
+        assert!((work * WIDTH / p.fracture_energy - 1.0).abs() < 1e-5);
     }
-    assert!(last.abs() < 1e-12);
-    assert!((work * WIDTH / p.fracture_energy - 1.0).abs() < 1e-6);
+}
+
+/// Vecchio and Collins (1993): a strut crossed by cracks of 1 % strain carries fcm/(1 + 0.27 (0.01/eps_c1 - 0.37)).
+#[test]
+fn cracks_weaken_the_strut_they_cross() {
+    let p = parameters();
+    let across = 0.01;
+    let beta = 1.0 / (1.0 + 0.27 * (across / p.eps_c1 - 0.37));
+    for (compression_softening, share) in [
+        (CompressionSoftening::None, 1.0),
+        (CompressionSoftening::VecchioCollins, beta),
+    ] {
+        let mut point = Point::new(build(FixedCrackParameters {
+            compression_softening,
+            ..p
+        }));
+        // The axis out of the plane keeps its strain at onset, which counts as lateral too.
+        point.stress(axial(across));
+        let strut = Vector6::new(across, -p.eps_c1, 0.0, 0.0, 0.0, 0.0);
+        let found = -point.stress(strut)[1] / p.fcm_mpa;
+        assert!((found - share).abs() < 1e-4, "{found} {share}");
+    }
+}
+
+/// Interlock on an open crack: slip stiffness of Walraven (1981) in series with the sound concrete, up to the strength
+/// of Vecchio and Collins (1986). The history of the opening governs: a crack that closes keeps its strength.
+#[test]
+fn interlock_follows_its_stiffness_up_to_its_strength() {
+    let p = parameters();
+    let opening = 0.3;
+    let e = opening / WIDTH + p.ft_mpa / p.young_mpa;
+    let sheared = |gamma: f64| Vector6::new(e, 0.0, 0.0, gamma, 0.0, 0.0);
+    let k = 1.8 * opening.powf(-0.8) + (0.234 * opening.powf(-0.707) - 0.2) * 1.2 * p.fcm_mpa;
+    let g0 = p.young_mpa / 2.0 / (1.0 + p.poisson);
+    let strength = 0.18 * p.fcm_mpa.sqrt() / (0.31 + 24.0 * opening / 35.0);
+    let mut point = Point::new(law(0.2));
+    point.stress(axial(e));
+    let low = point.stress(sheared(1e-4))[3];
+    assert!((low - 1e-4 / (1.0 / g0 + 1.0 / (k * WIDTH))).abs() < 1e-9 * low);
+    let high = point.stress(sheared(2e-2))[3];
+    assert!((high - strength).abs() < 1e-9, "{high} {strength}");
+    let closed = point.stress(Vector6::new(-1e-5, 0.0, 0.0, 2e-2, 0.0, 0.0))[3];
+    assert!((closed - strength).abs() < 1e-9);
+    let mut without = Point::new(build(FixedCrackParameters {
+        shear_transfer: ShearTransfer::Damage,
+        ..p
+    }));
+    without.stress(axial(e));
+    assert!(without.stress(sheared(2e-2))[3] < 0.3 * strength);
 }
 
 /// fib Model Code 2010, 5.1-26: the curve in compression, peak -fcm at -eps_c1; crushing then is counted.
@@ -147,6 +210,10 @@ fn impossible_parameters_and_bands_are_refused() {
             eps_c1: 1e-4,
             ..parameters()
         },
+        FixedCrackParameters {
+            shear_transfer: ShearTransfer::Interlock { aggregate_mm: 0.0 },
+            ..parameters()
+        },
     ];
     for p in bad {
         let error = FixedCrack::new(p, None).unwrap_err();
@@ -163,14 +230,21 @@ fn impossible_parameters_and_bands_are_refused() {
 /// and no energy created once cracked.
 #[test]
 fn conforms() {
-    for poisson in [0.0, 0.2] {
+    let plain = FixedCrackParameters {
+        poisson: 0.0,
+        tension_softening: TensionSoftening::Linear,
+        shear_transfer: ShearTransfer::Damage,
+        compression_softening: CompressionSoftening::None,
+        ..parameters()
+    };
+    for p in [parameters(), plain] {
         for amplitude in [1e-3, 1e-2] {
             let check = MaterialCheck {
                 paths: 2500,
                 steps: 10,
                 ..MaterialCheck::new(amplitude)
             };
-            let report = check_material(&law(poisson), &check).unwrap();
+            let report = check_material(&build(p), &check).unwrap();
             assert!(report.least_dissipation.is_some());
         }
     }

@@ -9,13 +9,14 @@ use super::curves::Compression;
 use super::{FixedCrack, OPERATOR_FLOOR, State, wants_secant};
 
 impl FixedCrack {
-    /// Stress of the uncracked point, or `None` when a crack opens: the state then holds its axes.
+    /// Stress of the uncracked point, or `false` when a crack opens: the state then holds its axes.
     pub(super) fn uncracked(
         &self,
         strain: &Vector6<f64>,
         state: &mut State,
         ctx: &PointContext,
-    ) -> Result<Option<Response<Solid>>, MaterialError> {
+        out: &mut Response<Solid>,
+    ) -> Result<bool, MaterialError> {
         let compression = Compression::new(&self.p, ctx.band_width)?;
         let (e, axes) = principal(&strain_tensor(strain));
         let nu = self.p.poisson;
@@ -48,7 +49,7 @@ impl FixedCrack {
             state.onset = onset;
             state.kt = self.strains_at_onset(onset);
             state.kc = committed_kc;
-            return Ok(None);
+            return Ok(false);
         }
         for k in state.kc {
             state.crushing = state.crushing.max(compression.crushing(k));
@@ -56,8 +57,7 @@ impl FixedCrack {
         let t = strain_transform(&axes);
         let mut local = Vector6::zeros();
         local.fixed_rows_mut::<3>(0).copy_from(&stress);
-        let sigma = t.tr_mul(&local);
-        let mut tangent = Matrix6::zeros();
+        out.stress = t.tr_mul(&local);
         if ctx.operator != Operator::None {
             let mut d = Matrix6::zeros();
             for i in 0..3 {
@@ -86,12 +86,9 @@ impl FixedCrack {
                     g
                 };
             }
-            tangent = t.tr_mul(&d) * t;
+            out.tangent = t.tr_mul(&d) * t;
         }
-        Ok(Some(Response {
-            stress: sigma,
-            tangent,
-        }))
+        Ok(true)
     }
 
     /// Stress sigma_1 at which a crack opens, if it does.

@@ -66,6 +66,9 @@ fn concrete(
             let parameters = FixedCrackParameters {
                 poisson: specimen.concrete.poisson.get(),
                 shear_floor: settings.shear_floor,
+                tension_softening: settings.tension_softening,
+                shear_transfer: settings.shear_transfer,
+                compression_softening: settings.compression_softening,
                 ..FixedCrackParameters::from_strength(c.fcm_mpa, c.fctm_mpa, young)
             };
             let onset = Ottosen::new(&Calibration::model_code(c.fcm_mpa, c.fctm_mpa))?;

@@ -1,9 +1,12 @@
 //! How a specimen is modelled: one set for all beams.
 
 use fe_elements::{BandWidth, HexRule};
+use fe_materials::fixed_crack::{
+    AGGREGATE_MM, CompressionSoftening, ShearTransfer, TensionSoftening,
+};
 
 use super::default_mesh;
-use crate::options::{Bond, Law, Preset, SheetShear, SoffitFibre};
+use crate::options::{Bond, Cracks, Law, Preset, SheetShear, SoffitFibre};
 use crate::spec::Specimen;
 
 /// Settings of a model.
@@ -19,8 +22,16 @@ pub struct ModelSettings {
     pub law: Law,
     /// Dowel action of bars against shear across cracks.
     pub dowel: bool,
+    /// Softening of the fixed-crack law in tension.
+    pub tension_softening: TensionSoftening,
+    /// Shear across its cracks.
+    pub shear_transfer: ShearTransfer,
+    /// What its cracks do to the compression across them.
+    pub compression_softening: CompressionSoftening,
     /// Floor of the shear factor of open cracks (-).
     pub shear_floor: f64,
+    /// Crack-band width of the fixed-crack law over the side of the equivalent square in the plane of the beam.
+    pub band_factor: f64,
     /// Bond of the sheets.
     pub bond: Bond,
     /// Fibres of the sheet on the soffit.
@@ -32,25 +43,77 @@ pub struct ModelSettings {
 impl ModelSettings {
     /// The settings of a preset on the mesh that suits a specimen, see [`default_mesh`].
     pub fn new(preset: Preset, specimen: &Specimen) -> Self {
-        let (integration, dowel, shear_floor) = match preset {
-            Preset::Physical | Preset::Reference => (HexRule::Full, true, 1e-4),
-            Preset::Characteristic => (HexRule::Reduced, false, 1e-3),
-        };
         let (soffit_fibre, sheet_shear) = match preset {
             Preset::Reference => (SoffitFibre::Along, SheetShear::Half),
             Preset::Physical | Preset::Characteristic => (SoffitFibre::Given, SheetShear::Given),
         };
-        Self {
+        let plain = Self {
             preset,
             mesh: default_mesh(specimen),
-            integration,
+            integration: HexRule::Full,
             law: Law::FixedCrack,
-            dowel,
-            shear_floor,
+            dowel: true,
+            tension_softening: TensionSoftening::Exponential,
+            shear_transfer: ShearTransfer::Interlock {
+                aggregate_mm: AGGREGATE_MM,
+            },
+            compression_softening: CompressionSoftening::VecchioCollins,
+            shear_floor: 1e-4,
+            band_factor: 1.0,
             bond: Bond::Cohesive,
             soffit_fibre,
             sheet_shear,
+        };
+        match preset {
+            Preset::Physical | Preset::Reference => plain,
+            Preset::Characteristic => Self {
+                integration: HexRule::Reduced,
+                dowel: false,
+                tension_softening: TensionSoftening::Linear,
+                shear_transfer: ShearTransfer::Damage,
+                compression_softening: CompressionSoftening::None,
+                shear_floor: 1e-3,
+                band_factor: 0.5,
+                ..plain
+            },
         }
+    }
+
+    /// The same with the ingredients that are given.
+    #[must_use]
+    pub fn with_cracks(mut self, given: &Cracks) -> Self {
+        use crate::options::{
+            CompressionSoftening as Compression, ShearTransfer as Shear,
+            TensionSoftening as Tension,
+        };
+        if let Some(shape) = given.tension_softening {
+            self.tension_softening = match shape {
+                Tension::Linear => TensionSoftening::Linear,
+                Tension::Exponential => TensionSoftening::Exponential,
+            };
+        }
+        if let Some(transfer) = given.shear_transfer {
+            self.shear_transfer = match transfer {
+                Shear::Damage => ShearTransfer::Damage,
+                Shear::Interlock => ShearTransfer::Interlock {
+                    aggregate_mm: AGGREGATE_MM,
+                },
+            };
+        }
+        if let (ShearTransfer::Interlock { aggregate_mm }, Some(given)) =
+            (&mut self.shear_transfer, given.aggregate_mm)
+        {
+            *aggregate_mm = given;
+        }
+        if let Some(softening) = given.compression_softening {
+            self.compression_softening = match softening {
+                Compression::None => CompressionSoftening::None,
+                Compression::VecchioCollins => CompressionSoftening::VecchioCollins,
+            };
+        }
+        self.shear_floor = given.shear_floor.unwrap_or(self.shear_floor);
+        self.band_factor = given.band_factor.unwrap_or(self.band_factor);
+        self
     }
 
     /// Crack-band width (mm) of the average concrete element: the length over which a dowel acts.
@@ -62,13 +125,12 @@ impl ModelSettings {
 
     const fn band_factor(&self) -> f64 {
         match self.law {
-            Law::FixedCrack => 0.5,
+            Law::FixedCrack => self.band_factor,
             Law::Reference | Law::Objective => 1.0,
         }
     }
 
-    /// Crack-band width of concrete elements: half the side of the equivalent square in the plane of
-    /// the beam for the fixed-crack law, the full side for the others.
+    /// Crack-band width of concrete elements.
     pub const fn band_width(&self) -> BandWidth {
         BandWidth::InPlane {
             normal: [0.0, 0.0, 1.0],

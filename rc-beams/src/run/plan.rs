@@ -29,7 +29,7 @@ const KEEP_FACTOR: f64 = 3.0;
 
 /// How a specimen is modelled.
 pub(super) fn settings(options: &RunOptions, specimen: &Specimen) -> ModelSettings {
-    let mut settings = ModelSettings::new(options.preset, specimen);
+    let mut settings = ModelSettings::new(options.preset, specimen).with_cracks(&options.cracks);
     settings.law = options.law;
     settings.bond = options.bond;
     settings.soffit_fibre = options.soffit_fibre.unwrap_or(settings.soffit_fibre);
