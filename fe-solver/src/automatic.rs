@@ -137,6 +137,7 @@ impl Automatic {
                 iterations: 0,
                 held: false,
                 means: None,
+                lag: None,
             },
             Err(e) => return Err(e),
         };

@@ -19,6 +19,8 @@ pub struct PathPoint {
     pub unstable: bool,
     /// Largest kinetic energy over the work so far, where the path is a motion and no chain of equilibria.
     pub kinetic: Option<f64>,
+    /// Viscous work over the work so far, where laws lag behind.
+    pub viscous: Option<f64>,
 }
 
 /// Fall from the running maximum after which the path before it holds the capacity.
@@ -142,6 +144,13 @@ pub const MAX_STEP_CHANGE_LIMITED: f64 = 0.10;
 /// longer depends on the rate from 1e-3 down).
 pub const MAX_KINETIC: f64 = 1e-3;
 
+/// Viscous work over the work done beyond which a peak is not trusted (STAB-25 of the stability catalogue).
+pub const MAX_VISCOUS: f64 = 0.02;
+
+/// Residual of a step that is not flagged beyond which a peak is trusted within limits only: drivers that do not
+/// iterate leave any.
+pub const MAX_UNBALANCED: f64 = 0.01;
+
 /// Share of the peak from which on a motion is judged.
 pub const APPROACH: f64 = 0.8;
 
@@ -173,7 +182,8 @@ impl Verdict {
     /// or passes unstable equilibria before the peak (other equilibrium branches exist then, and which one
     /// the path takes depends on the steps), or when the load is largest at the end of the path. A motion is trusted
     /// within limits as long as its kinetic energy stays below [`MAX_KINETIC`] from [`APPROACH`] of the peak on, else
-    /// not.
+    /// not; laws that lag behind as long as viscosity has taken no more than [`MAX_VISCOUS`] of the work; steps without
+    /// iteration by their unbalanced force.
     pub fn of(path: &[PathPoint], capacity: &Capacity) -> Self {
         let before = path.get(..=capacity.peak).unwrap_or(path);
         let steps = before.len();
@@ -183,6 +193,7 @@ impl Verdict {
         let flagged = before.iter().filter(|p| p.flagged).count();
         let jumps = (0..steps).filter(|&i| is_jump(path, i)).count();
         let worst_flagged = worst(&mut before.iter().filter(|p| p.flagged));
+        let unbalanced = worst(&mut before.iter().filter(|p| !p.flagged));
         let regular = |&i: &usize| !path[i].flagged && !is_jump(path, i);
         let last = (0..steps).rev().find(regular).map(|i| path[i]);
         let gap = last.map(|p| p.work_conjugate_load - p.load);
@@ -214,6 +225,28 @@ impl Verdict {
             let reason = format!(
                 "a motion, no equilibria: from {APPROACH} of the peak on the kinetic energy is at most {kinetic:.1e} of \
                  the work, the unbalanced force at most {unbalanced:.1e} of the reactions"
+            );
+            (trust, reason)
+        } else if let Some(viscous) = before.last().and_then(|p| p.viscous) {
+            let trust = if viscous > MAX_VISCOUS || unbalanced > MAX_FLAGGED_RESIDUAL {
+                Trust::Low
+            } else {
+                Trust::Limited
+            };
+            let reason = format!(
+                "laws lag behind: up to the peak viscosity has taken {:.1} % of the work, the unbalanced force without \
+                 it is at most {unbalanced:.1e} of the reactions",
+                100.0 * viscous
+            );
+            (trust, reason)
+        } else if unbalanced > MAX_UNBALANCED {
+            let trust = if unbalanced > MAX_FLAGGED_RESIDUAL {
+                Trust::Low
+            } else {
+                Trust::Limited
+            };
+            let reason = format!(
+                "steps up to the peak are no equilibria: the unbalanced force is up to {unbalanced:.1e} of the reactions"
             );
             (trust, reason)
         } else if flagged > 0 {
@@ -290,6 +323,7 @@ mod tests {
             held: false,
             unstable: false,
             kinetic: None,
+            viscous: None,
         };
         loads.iter().enumerate().map(point).collect()
     }

@@ -257,7 +257,7 @@ impl StepControl {
         }
     }
 
-    /// Measures the accepted state with the inviscid law, commits it and records it; keeps it, unless it is recalled and
+    /// Measures the accepted state, commits it and records it; keeps it, unless it is recalled and
     /// leads where it led.
     fn accept(
         stage: &mut Stage<'_>,
@@ -266,7 +266,8 @@ impl StepControl {
         mut entry: Entry,
     ) -> Result<Done, SolverError> {
         let (u, lambda) = (&entry.attempt.displacement, entry.attempt.lambda);
-        let signs = stage.stability(u, lambda)?;
+        let relaxation = entry.attempt.lag.map_or(1.0, |lag| lag.relaxation);
+        let signs = stage.stability(u, lambda, relaxation)?;
         let critical = stage.signs().until(signs);
         if let Some(means) = &entry.attempt.means {
             stage.read_off(&means.internal);
@@ -308,6 +309,7 @@ impl StepControl {
             negative_pivots: signs.negative,
             critical,
             kinetic: attempt.means.map(|m| m.kinetic),
+            viscous: attempt.lag.map(|lag| lag.viscous),
             stage,
         };
         Ok(Done {

@@ -30,6 +30,16 @@ pub struct Means {
     pub kinetic: f64,
 }
 
+/// What a driver whose laws lag behind reports of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Lag {
+    /// Share of the growth of histories that was admitted, see
+    /// [`EvaluationContext::relaxation`](fe_core::element::EvaluationContext::relaxation).
+    pub relaxation: f64,
+    /// Work of the viscous excess of stress over the work done, both up to here.
+    pub viscous: f64,
+}
+
 /// Result of one attempt at a step. The trial state of the stage is that of `displacement`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Attempt {
@@ -39,7 +49,7 @@ pub struct Attempt {
     pub lambda: f64,
     /// Whether the criterion was met.
     pub converged: bool,
-    /// Residual of the law as solved.
+    /// Residual of the law; where histories lag behind, of the law without viscosity.
     pub residual: Residual,
     /// Iterations spent.
     pub iterations: usize,
@@ -47,6 +57,8 @@ pub struct Attempt {
     pub held: bool,
     /// Of a motion; none where the step ends in equilibrium.
     pub means: Option<Means>,
+    /// Of laws that lag behind.
+    pub lag: Option<Lag>,
 }
 
 /// Brings one step to equilibrium, starting from the accepted state of a stage.

@@ -197,6 +197,7 @@ impl Driver for Explicit {
                 internal: mean,
                 kinetic: share,
             }),
+            lag: None,
         })
     }
 

@@ -55,6 +55,7 @@ impl Default for NewtonSettings {
 #[derive(Debug)]
 pub struct NewtonRaphson {
     settings: NewtonSettings,
+    relaxation: f64,
     constraint: Box<dyn PathConstraint>,
 }
 
@@ -68,8 +69,21 @@ impl NewtonRaphson {
     pub fn with_constraint(settings: NewtonSettings, constraint: Box<dyn PathConstraint>) -> Self {
         Self {
             settings,
+            relaxation: 1.0,
             constraint,
         }
+    }
+
+    /// An attempt whose histories grow by the share `relaxation`.
+    pub(crate) fn relaxed(
+        &mut self,
+        relaxation: f64,
+        stage: &mut Stage<'_>,
+        request: Request,
+        log: &mut IterationLog<'_>,
+    ) -> Result<Attempt, SolverError> {
+        self.relaxation = relaxation;
+        self.attempt(stage, request, log)
     }
 }
 
@@ -89,8 +103,10 @@ impl Driver for NewtonRaphson {
     ) -> Result<Attempt, SolverError> {
         let s = self.settings;
         self.constraint.begin(stage, request.length)?;
-        let tangent = EvaluationContext::new(s.operator);
-        let force = EvaluationContext::new(Operator::None);
+        let [tangent, force] = [s.operator, Operator::None].map(|operator| EvaluationContext {
+            operator,
+            relaxation: self.relaxation,
+        });
         let start = stage.restrict(stage.displacement());
         let mut du = vec![0.0; start.len()];
         let mut lambda = stage.lambda();
@@ -159,6 +175,7 @@ impl Driver for NewtonRaphson {
                     iterations,
                     held: false,
                     means: None,
+                    lag: None,
                 });
             }
             stage.latch();

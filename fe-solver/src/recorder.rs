@@ -52,6 +52,8 @@ pub struct StepView<'a> {
     pub flagged: bool,
     /// Largest kinetic energy of the step over the work so far, for drivers that follow a motion.
     pub kinetic: Option<f64>,
+    /// Viscous work over the work so far, for drivers whose laws lag behind.
+    pub viscous: Option<f64>,
     /// Negative pivots of the symmetric part of the consistent tangent: 0 in a stable equilibrium.
     pub negative_pivots: usize,
     /// What the path has passed since the step before.

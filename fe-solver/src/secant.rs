@@ -134,7 +134,7 @@ impl SecantAnderson {
 
     /// First iterate: the accepted displacement extrapolated along its last increment, or, without one, a linear
     /// solve from it.
-    fn predict(stage: &mut Stage<'_>, step: f64) -> Result<Vec<f64>, SolverError> {
+    pub(crate) fn predict(stage: &mut Stage<'_>, step: f64) -> Result<Vec<f64>, SolverError> {
         let accepted = stage.displacement();
         if let Some((du, dl)) = stage.previous() {
             let ratio = step / dl;
@@ -261,6 +261,7 @@ impl Driver for SecantAnderson {
             iterations,
             held,
             means: None,
+            lag: None,
         })
     }
 }

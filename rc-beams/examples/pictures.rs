@@ -117,6 +117,7 @@ fn path() -> Vec<PathPoint> {
             held: i == 54,
             unstable: false,
             kinetic: None,
+            viscous: None,
         }
     };
     (0..=112).map(point).collect()

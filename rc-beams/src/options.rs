@@ -222,6 +222,10 @@ pub enum Driver {
     Newton,
     /// Newton-Raphson, tangent kept while it serves
     ModifiedNewton,
+    /// Newton-Raphson on laws that lag behind; the viscous work is told
+    Viscous,
+    /// One linear solve a step, no iteration; the unbalanced force is told
+    Implex,
     /// No equilibria: slow motion with fictitious masses, to check the others by; takes minutes
     Explicit,
 }

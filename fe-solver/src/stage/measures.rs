@@ -86,13 +86,23 @@ impl Stage<'_> {
     /// an equilibrium that is stable under the constraints of the stage (positive second-order work, Hill
     /// 1958). A tangent that is singular counts as one.
     ///
-    /// The trial state is that of `u`, which is to be accepted; the factor replaces that of the driver.
+    /// Histories grow by the share `relaxation`, 1 without viscosity. The trial state is that of `u`, which is to be
+    /// accepted; the factor replaces that of the driver.
     ///
     /// # Errors
     ///
     /// [`SolverError`].
-    pub fn stability(&mut self, u: &[f64], lambda: f64) -> Result<Signs, SolverError> {
-        self.residual(u, lambda, &EvaluationContext::new(Operator::Tangent))?;
+    pub fn stability(
+        &mut self,
+        u: &[f64],
+        lambda: f64,
+        relaxation: f64,
+    ) -> Result<Signs, SolverError> {
+        let tangent = EvaluationContext {
+            operator: Operator::Tangent,
+            relaxation,
+        };
+        self.residual(u, lambda, &tangent)?;
         let matrix = &mut self.assembled.matrix;
         if !matrix.is_symmetric() {
             for (l, u) in matrix.lower.iter_mut().zip(&matrix.upper) {

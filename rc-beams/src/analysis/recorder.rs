@@ -129,6 +129,7 @@ impl Recorder for LoadRecorder<'_> {
             held: view.held,
             unstable: view.negative_pivots > 0,
             kinetic: view.kinetic,
+            viscous: view.viscous,
         });
         let (best, now) = (self.path[self.best], self.path[self.path.len() - 1]);
         if !self.fell && (self.path.len() == 1 || now.load > best.load) {

@@ -48,7 +48,7 @@ pub(super) fn peak_kn(
         settings,
         staged,
     });
-    let mut driver = driver(options);
+    let mut driver = driver(specimen, options)?;
     let mut silent = Silent(interrupt);
     let done = analyse(
         &beam,

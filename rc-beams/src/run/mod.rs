@@ -94,7 +94,7 @@ fn run(
         Some(sheets) => pull_out::error(&beam.model, sheets)?,
         None => None,
     };
-    let mut driver = driver(options);
+    let mut driver = driver(specimen, options)?;
     let layout = evidence::layout(specimen, &beam);
     let mut recording = Recording::start(
         (board, &specimen.name),

@@ -126,6 +126,7 @@ impl<'a> Recording<'a> {
             flagged: view.flagged,
             step_mm: if step > 0 { view.increment } else { 0.0 },
             kinetic: view.kinetic,
+            viscous: view.viscous,
             factorisations: stage.counters().factorisations,
             force_evaluations: stage.counters().force_evaluations,
         };

@@ -178,6 +178,7 @@ mod tests {
             held: false,
             unstable: false,
             kinetic: None,
+            viscous: None,
         };
         loads.iter().enumerate().map(point).collect()
     }

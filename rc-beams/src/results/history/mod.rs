@@ -39,6 +39,8 @@ pub struct StepRow {
     pub step_mm: f64,
     /// Largest kinetic energy of the step over the work so far, of a motion.
     pub kinetic: Option<f64>,
+    /// Viscous work over the work so far, where laws lag behind.
+    pub viscous: Option<f64>,
     /// Numeric factorisations so far.
     pub factorisations: usize,
     /// Evaluations of the internal force so far.
@@ -57,6 +59,7 @@ impl StepRow {
             held: self.held,
             unstable: self.negative_pivots > 0,
             kinetic: self.kinetic,
+            viscous: self.viscous,
         }
     }
 
@@ -78,6 +81,7 @@ impl StepRow {
             u8::from(self.flagged).to_string(),
             number(self.step_mm),
             self.kinetic.map_or_else(String::new, number),
+            self.viscous.map_or_else(String::new, number),
             self.factorisations.to_string(),
             self.force_evaluations.to_string(),
         ]);
@@ -86,7 +90,7 @@ impl StepRow {
 }
 
 /// Columns of `history.csv` before and after the reactions.
-const STEP_COLUMNS: ([&str; 4], [&str; 11]) = (
+const STEP_COLUMNS: ([&str; 4], [&str; 12]) = (
     ["step", "deflection_mm", "load_kn", "p_star_kn"],
     [
         "negative_pivots",
@@ -98,6 +102,7 @@ const STEP_COLUMNS: ([&str; 4], [&str; 11]) = (
         "flagged",
         "step_mm",
         "kinetic_share",
+        "viscous_share",
         "factorisations",
         "force_evaluations",
     ],
@@ -257,9 +262,9 @@ mod tests {
 
         let expected = "step,deflection_mm,load_kn,p_star_kn,reaction_x610_kn,reaction_x2440_kn,\
                         negative_pivots,residual,criterion,iterations,attempts,held,flagged,step_mm,kinetic_share,\
-                        factorisations,force_evaluations\n\
-                        0,0,0,,0,0,0,0.0005,0.001,3,1,0,0,0,,0,0\n\
-                        1,0.1,20,20.25,10,10,0,0.0005,0.001,3,1,0,0,0,,0,0\n";
+                        viscous_share,factorisations,force_evaluations\n\
+                        0,0,0,,0,0,0,0.0005,0.001,3,1,0,0,0,,,0,0\n\
+                        1,0.1,20,20.25,10,10,0,0.0005,0.001,3,1,0,0,0,,,0,0\n";
         assert_eq!(read("history.csv"), expected);
         assert_eq!(
             read("gauges.csv"),

@@ -147,6 +147,7 @@ fn path(loads: &[f64]) -> Vec<PathPoint> {
         held: false,
         unstable: false,
         kinetic: None,
+        viscous: None,
     };
     loads.iter().enumerate().map(point).collect()
 }

@@ -54,6 +54,7 @@ fn summary(loads: &[f64]) -> Summary {
         held: false,
         unstable: false,
         kinetic: None,
+        viscous: None,
     };
     let path: Vec<_> = loads.iter().enumerate().map(point).collect();
     let capacity = Capacity::of(&path).unwrap();
