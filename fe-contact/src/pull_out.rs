@@ -56,6 +56,12 @@ impl PullOut {
         (2.0 * self.bond.energy() * self.membrane).sqrt()
     }
 
+    /// Longest element (mm) that resolves the process zone: a third of the softening length at debonding, pi/(2 lambda_2)/3.
+    /// Beyond it the force oscillates as the zone passes element by element, and its peak is too high.
+    pub fn longest_element(&self) -> f64 {
+        std::f64::consts::FRAC_PI_2 / self.lambda[1] / 3.0
+    }
+
     /// Force per width (N/mm) at which the loaded end reaches s0.
     pub fn elastic_limit(&self, length: f64) -> f64 {
         let l1 = self.lambda[0];

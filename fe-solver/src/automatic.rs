@@ -1,10 +1,14 @@
 //! Path control chosen by the state of the path.
 
+use fe_core::element::EvaluationContext;
+
 use crate::anderson::dot;
+use crate::critical::Signs;
 use crate::driver::{Attempt, Driver, IterationLog, Request};
 use crate::error::SolverError;
 use crate::newton::{NewtonRaphson, NewtonSettings};
 use crate::path::{Dissipation, Energies, LoadedDisplacement, Mode};
+use crate::secant::SecantAnderson;
 use crate::stage::{Residual, Stage};
 
 /// A step that dissipates more than this share of the work done on it calls for dissipation control.
@@ -15,6 +19,10 @@ const ELASTIC: f64 = 1e-3;
 const ONSET: f64 = 1.0 / 16.0;
 /// Bounds of the factor by which the dissipation of a step changes from one to the next.
 const PACE: (f64, f64) = (0.7, 1.3);
+
+/// Largest load that the growth of histories may take away within a step under imposed displacements, over the largest
+/// load so far: more would hide a peak between two steps.
+const EVENT: f64 = 0.02;
 
 /// What is controlled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,12 +44,21 @@ enum Control {
 ///
 /// A step that unloads elastically was not asked for and is refused, however well it converged. Every change is
 /// noted with its reason.
+///
+/// Where displacements are imposed and no force grows, steps are solved by [`SecantAnderson`], which passes snaps at held
+/// displacements. A step in which the growth of histories takes away more than 2 % of the largest load, measured by the
+/// [work-conjugate load](Stage::work_conjugate_load) against that with histories held, is shortened as far as allowed:
+/// so no peak is stepped over. So is a step from a stable equilibrium to one that is not: where several places are about
+/// to fail, a short step lets the weakest fail first.
 #[derive(Debug)]
 pub struct Automatic {
     settings: NewtonSettings,
     displacement: NewtonRaphson,
     dissipation: NewtonRaphson,
     mode: Option<NewtonRaphson>,
+    imposed: SecantAnderson,
+    /// Largest load (N) under imposed displacements.
+    largest: f64,
     control: Control,
     /// Length (mm) of the last attempt that converged.
     length: f64,
@@ -61,6 +78,8 @@ impl Automatic {
             displacement: with(Box::<LoadedDisplacement>::default()),
             dissipation: with(Box::<Dissipation>::default()),
             mode: None,
+            imposed: SecantAnderson::default(),
+            largest: 0.0,
             control: Control::Displacement,
             length: 0.0,
             rate: 0.0,
@@ -147,6 +166,31 @@ impl Automatic {
         Ok(attempt)
     }
 
+    /// A step under imposed displacements.
+    fn impose(
+        &mut self,
+        stage: &mut Stage<'_>,
+        request: Request,
+        log: &mut IterationLog<'_>,
+    ) -> Result<Attempt, SolverError> {
+        let mut attempt = self.imposed.attempt(stage, request, log)?;
+        // Snaps are passed in the shortest steps only.
+        attempt.converged &= request.last_resort || !attempt.held;
+        if !attempt.converged || request.last_resort {
+            return Ok(attempt);
+        }
+        let (u, lambda) = (&attempt.displacement, attempt.lambda);
+        let load = stage.work_conjugate_load(u, lambda);
+        stage.residual(u, lambda, &EvaluationContext::frozen())?;
+        let held = stage.work_conjugate_load(u, lambda);
+        self.largest = self.largest.max(stage.accepted_load().abs());
+        attempt.converged = held - load <= EVENT * self.largest.max(load.abs());
+        if attempt.converged && stage.signs() == Signs::STABLE {
+            attempt.converged = stage.stability(u, lambda, 1.0)? == Signs::STABLE;
+        }
+        Ok(attempt)
+    }
+
     /// The mode in which an attempt failed: what its iterate has beyond the last increment, scaled to the same
     /// displacement under the forces.
     fn failing_mode(stage: &Stage<'_>, failed: &Attempt) -> Option<Vec<f64>> {
@@ -194,6 +238,9 @@ impl Driver for Automatic {
         request: Request,
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
+        if stage.conditions().reference().iter().all(|f| *f == 0.0) {
+            return self.impose(stage, request, log);
+        }
         self.look_back(stage)?;
         let usual = self.control;
         let mut result = self.run(stage, request, log);

@@ -6,9 +6,12 @@
 pub mod beam;
 pub mod conditions;
 pub mod cube;
+pub mod delamination;
 pub mod dense;
+pub mod driven;
 pub mod figure;
 pub mod follow;
+pub mod hourglass;
 pub mod laws;
 pub mod mesh;
 pub mod shell;

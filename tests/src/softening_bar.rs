@@ -16,7 +16,7 @@ use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters, TensionSofteni
 use nalgebra::Vector3;
 
 use crate::conditions::{hold, push_faces};
-use crate::mesh::{boxes, cells, lines};
+use crate::mesh::{boxes, cells, lines, nodes_where};
 
 /// Young's modulus E (MPa).
 pub const YOUNG: f64 = 30_000.0;
@@ -29,9 +29,10 @@ pub const OPENING: f64 = 2.0 * ENERGY / STRENGTH;
 /// Section (mm2).
 pub const AREA: f64 = 100.0;
 
-/// Concrete without lateral contraction.
-fn concrete() -> FixedCrack {
+/// Concrete of a tensile strength (MPa) without lateral contraction.
+fn concrete(strength: f64) -> FixedCrack {
     let parameters = FixedCrackParameters {
+        ft_mpa: strength,
         poisson: 0.0,
         tension_softening: TensionSoftening::Linear,
         fracture_energy: ENERGY,
@@ -46,21 +47,8 @@ fn concrete() -> FixedCrack {
 ///
 /// For a length that is not positive.
 pub fn bar(length: f64, n: usize) -> (Model, Conditions) {
-    let mesh = boxes(&lines(0.0, length, n), &[0.0, 10.0], &[0.0, 10.0]).expect("a bar");
-    let width = length / n as f64;
-    let mut elements: Vec<Box<dyn Element>> = Vec::new();
-    for (i, (nodes, coords)) in cells(&mesh, &mesh.blocks()[0]).enumerate() {
-        let law: Arc<dyn Material<Solid>> = if i == 0 {
-            Arc::new(concrete())
-        } else {
-            Arc::new(Elastic::new(YOUNG, 0.0).expect("a bar"))
-        };
-        let band = BandWidth::Fixed(width);
-        elements.push(Box::new(
-            Hex20::new(nodes, &coords, HexRule::Full, law, band).expect("a bar"),
-        ));
-    }
-    let model = Model::new(mesh, elements);
+    let strengths: Vec<_> = (0..n).map(|i| (i == 0).then_some(STRENGTH)).collect();
+    let model = cracking(length, &strengths);
     let mut conditions = held(&model);
     push_faces(
         &model,
@@ -70,6 +58,42 @@ pub fn bar(length: f64, n: usize) -> (Model, Conditions) {
     )
     .expect("a bar");
     (model, conditions)
+}
+
+/// A bar of which one end is moved by 1 mm per unit of the load factor; cells of the given tensile strengths (MPa).
+///
+/// # Panics
+///
+/// For a length that is not positive.
+pub fn moved(length: f64, strengths: &[f64]) -> (Model, Conditions) {
+    let strengths: Vec<_> = strengths.iter().map(|s| Some(*s)).collect();
+    let model = cracking(length, &strengths);
+    let mut conditions = held(&model);
+    for node in nodes_where(model.mesh(), |x| x[0] == length) {
+        conditions
+            .prescribe(&model, node, Dof::Ux, 1.0)
+            .expect("a bar");
+    }
+    (model, conditions)
+}
+
+/// Cells along x, elastic where there is no strength.
+fn cracking(length: f64, strengths: &[Option<f64>]) -> Model {
+    let n = strengths.len();
+    let mesh = boxes(&lines(0.0, length, n), &[0.0, 10.0], &[0.0, 10.0]).expect("a bar");
+    let width = length / n as f64;
+    let mut elements: Vec<Box<dyn Element>> = Vec::new();
+    for ((nodes, coords), strength) in cells(&mesh, &mesh.blocks()[0]).zip(strengths) {
+        let law: Arc<dyn Material<Solid>> = match strength {
+            Some(strength) => Arc::new(concrete(*strength)),
+            None => Arc::new(Elastic::new(YOUNG, 0.0).expect("a bar")),
+        };
+        let band = BandWidth::Fixed(width);
+        elements.push(Box::new(
+            Hex20::new(nodes, &coords, HexRule::Full, law, band).expect("a bar"),
+        ));
+    }
+    Model::new(mesh, elements)
 }
 
 /// Supports of a bar without lateral contraction: one end held.

@@ -12,7 +12,7 @@ use fe_solver::driver::Driver;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings};
 use fe_solver::path::{ArcLength, Dissipation, LoadFactor, LoadedDisplacement, PathConstraint};
 use fe_tests::follow::{Path, follow, gone, steps};
-use fe_tests::stability::{BAR_1000, BAR_2000, STRIP, Scenario};
+use fe_tests::stability::{LONG, LONGER, STRIP, Scene};
 
 fn newton(constraint: impl PathConstraint + 'static) -> Box<dyn Driver> {
     let constraint = Box::new(constraint);
@@ -27,19 +27,19 @@ fn automatic() -> Box<dyn Driver> {
 }
 
 /// Path of a scene by drivers that take over from one another.
-fn path(scenario: &Scenario, legs: Vec<(StepControl, Box<dyn Driver>)>) -> Path {
-    let (model, conditions) = (scenario.scene)();
+fn path(scene: &Scene, legs: Vec<(StepControl, Box<dyn Driver>)>) -> Path {
+    let (model, conditions) = (scene.model)();
     follow((&model, conditions), legs, gone).unwrap()
 }
 
 /// The path arrived, no step is marked, and every figure meets its target.
-fn assert_arrived(scenario: &Scenario, path: &Path) {
+fn assert_arrived(scene: &Scene, path: &Path) {
     assert!(
         path.stopped.is_none() && path.marked == 0,
         "{:?}",
         path.stopped
     );
-    for figure in (scenario.figures)(path) {
+    for figure in (scene.figures)(path) {
         assert!(figure.holds(), "{figure:?}");
     }
 }
@@ -119,10 +119,10 @@ fn arc_lengths_on_the_strip() {
 /// STAB-24, at three lengths of the steps. Targets: those above; the end of the bar moves back.
 #[test]
 fn a_bar_snaps_back() {
-    for scenario in [BAR_1000, BAR_2000] {
+    for scene in [LONG, LONGER] {
         for length in [0.002, 0.004, 0.008] {
-            let path = path(&scenario, vec![(steps(length, 1e-6), automatic())]);
-            assert_arrived(&scenario, &path);
+            let path = path(&scene, vec![(steps(length, 1e-6), automatic())]);
+            assert_arrived(&scene, &path);
             let end = path.points.last().unwrap();
             assert!(end[1] < path.turn(), "{end:?}");
         }

@@ -6,19 +6,8 @@
 //! w = P (2 L^3 + 3 a^3)/(8 b h^3 E); displacement control follows from a = 34.67 mm on. The give of crack tip and interface
 //! lengthens a in both formulas alike, so that load over displacement stays the same curve.
 
-use std::sync::Arc;
-
-use fe_contact::envelope::{Bilinear, BilinearSlips};
-use fe_contact::{
-    BondSettings, Interface, Interface16, InterfaceRule, MixedMode, MixedModeParameters, SlipDamage,
-};
 use fe_core::dof::Dof;
-use fe_core::element::Element;
-use fe_core::material::Material;
-use fe_core::mesh::{CellKind, Mesh, NodeId};
 use fe_core::model::{Conditions, Model};
-use fe_elements::HexRule;
-use fe_materials::Elastic;
 use fe_solver::automatic::Automatic;
 use fe_solver::control::StepControl;
 use fe_solver::driver::Driver;
@@ -26,94 +15,12 @@ use fe_solver::newton::{NewtonRaphson, NewtonSettings};
 use fe_solver::recorder::StepView;
 use fe_solver::secant::SecantAnderson;
 use fe_tests::conditions::hold;
+use fe_tests::delamination::{
+    H, arms, dcb, delamination, enf, falling, graded, least, notched, turned, under_force,
+};
 use fe_tests::follow::{Path, follow, steps};
-use fe_tests::mesh::{BLOCK, boxes, faces, hexahedra, lines, nodes_where};
+use fe_tests::mesh::nodes_where;
 use fe_tests::solve::run;
-
-const YOUNG: f64 = 120_000.0;
-const B: f64 = 20.0;
-const H: f64 = 1.5;
-const ENERGY: f64 = 0.28;
-const HALF_SPAN: f64 = 50.0;
-
-fn delamination() -> Arc<dyn Material<Interface>> {
-    let law = MixedMode::new(MixedModeParameters {
-        stiffness_mpa_per_mm: 1e5,
-        normal_strength_mpa: 15.0,
-        shear_strength_mpa: 40.0,
-        mode_1_energy_n_per_mm: ENERGY,
-        mode_2_energy_n_per_mm: ENERGY,
-        exponent: 2.0,
-        residual: 1e-6,
-    });
-    Arc::new(law.unwrap())
-}
-
-/// Faces that cannot part and hardly resist slip.
-fn slides() -> Arc<dyn Material<Interface>> {
-    let curve = Bilinear::from_slips(&BilinearSlips {
-        strength_mpa: 1e-6,
-        peak_slip_mm: 1e-6,
-        final_slip_mm: 2e-6,
-    });
-    let settings = BondSettings {
-        normal_over_initial: 1e5,
-        ..BondSettings::default()
-    };
-    Arc::new(SlipDamage::new(curve.unwrap(), settings).unwrap())
-}
-
-/// Two arms with an interface whose law depends on the place of the face along x; none where there is no law.
-fn arms(x: &[f64], law: impl Fn(f64) -> Option<Arc<dyn Material<Interface>>>) -> Model {
-    let lower = boxes(x, &[0.0, B], &[-H, 0.0]).unwrap();
-    let count = lower.nodes().len();
-    let mut nodes = lower.nodes().to_vec();
-    nodes.extend(lower.nodes().iter().map(|[x, y, z]| [*x, *y, z + H]));
-    let mut mesh = Mesh::new(nodes).unwrap();
-    let mut cells: Vec<NodeId> = lower.blocks()[0].cells().flatten().copied().collect();
-    cells.extend(cells.clone().iter().map(|n| n + count));
-    mesh.add_block(BLOCK, CellKind::Hex20, cells).unwrap();
-
-    let arm: Arc<dyn Material<_>> = Arc::new(Elastic::new(YOUNG, 0.0).unwrap());
-    let mut elements = hexahedra(&mesh, HexRule::Reduced, &arm).unwrap();
-    let upper = nodes_where(&mesh, |x| x[2] == 0.0)
-        .into_iter()
-        .filter(|&n| n >= count);
-    let upper: Vec<NodeId> = upper.collect();
-    for face in faces(&lower, |x| x[2] == 0.0) {
-        let coords = face.map(|n| mesh.nodes()[n]);
-        let Some(law) = law(0.5 * (coords[0][0] + coords[2][0])) else {
-            continue;
-        };
-        let above = |n: NodeId| {
-            *upper
-                .iter()
-                .find(|&&u| mesh.nodes()[u] == mesh.nodes()[n])
-                .unwrap()
-        };
-        let nodes = std::array::from_fn(|a| if a < 8 { face[a] } else { above(face[a - 8]) });
-        let rule = InterfaceRule::Gauss3;
-        let element = Interface16::new(nodes, &coords, [1.0, 0.0, 0.0], rule, law).unwrap();
-        elements.push(Box::new(element) as Box<dyn Element>);
-    }
-    Model::new(mesh, elements)
-}
-
-/// Grid lines: 5 mm outside, 1 mm between `from` and `to`.
-fn graded(from: f64, to: f64, end: f64) -> Vec<f64> {
-    let mut x = lines(0.0, from, (from / 5.0).ceil() as usize);
-    x.extend(
-        lines(from, to, (to - from).round() as usize)
-            .into_iter()
-            .skip(1),
-    );
-    x.extend(
-        lines(to, end, ((end - to) / 5.0).ceil() as usize)
-            .into_iter()
-            .skip(1),
-    );
-    x
-}
 
 /// Displacement (mm) and load (N) of every step.
 fn drive(
@@ -156,19 +63,6 @@ fn beam_theory(w: f64, low: f64, high: f64, formulas: impl Fn(f64) -> [f64; 2]) 
         }
     }
     formulas(low)[0]
-}
-
-/// Load and displacement of the double cantilever beam at a crack length (mm).
-fn dcb(a: f64) -> [f64; 2] {
-    let load = (ENERGY * B * B * YOUNG * H.powi(3) / 12.0).sqrt() / a;
-    [load, 8.0 * load * a.powi(3) / (YOUNG * B * H.powi(3))]
-}
-
-/// Load and displacement of the end-notched flexure specimen.
-fn enf(a: f64) -> [f64; 2] {
-    let load = 4.0 * B / (3.0 * a) * (ENERGY * YOUNG * H.powi(3)).sqrt();
-    let give = (2.0 * HALF_SPAN.powi(3) + 3.0 * a.powi(3)) / (8.0 * B * H.powi(3) * YOUNG);
-    [load, load * give]
 }
 
 #[test]
@@ -214,26 +108,6 @@ fn double_cantilever_beam() {
     compare(&path, [2.25, 2.9], 6, |w| beam_theory(w, 30.0, 50.0, dcb));
 }
 
-/// An end-notched specimen with its supports, and the nodes that are loaded. The faces of the notch slide.
-fn notched(notch: f64) -> (Model, Conditions, Vec<NodeId>) {
-    let [left, right] = [0.0, 2.0 * HALF_SPAN];
-    let model = arms(&graded(notch, 52.0, right), |x| {
-        Some(if x > notch { delamination() } else { slides() })
-    });
-    let mut conditions = Conditions::new(&model);
-    hold(&model, &mut conditions, &[Dof::Uy], |_| true).unwrap();
-    hold(&model, &mut conditions, &[Dof::Uz], |x| {
-        (x[0] == left || x[0] == right) && x[2] == -H
-    })
-    .unwrap();
-    hold(&model, &mut conditions, &[Dof::Ux], |x| {
-        x[0] == right && x[2] == -H
-    })
-    .unwrap();
-    let loaded = nodes_where(model.mesh(), |x| x[0] == HALF_SPAN && x[2] == H);
-    (model, conditions, loaded)
-}
-
 /// Target: the load over displacement of beam theory while the crack grows from
 /// 41 to 46 mm, within 1.2 %.
 #[test]
@@ -247,42 +121,6 @@ fn end_notched_flexure() {
     let mut driver = NewtonRaphson::new(NewtonSettings::default());
     let path = drive(&model, conditions, &mut driver, [0.05, 1.63]);
     compare(&path, [1.55, 1.63], 3, |w| beam_theory(w, 34.67, 60.0, enf));
-}
-
-/// The path from its largest force on.
-fn falling(path: &Path) -> &[[f64; 2]] {
-    let points = &path.points;
-    let peak = (0..points.len())
-        .max_by(|&a, &b| points[a][0].total_cmp(&points[b][0]))
-        .unwrap_or(0);
-    &points[peak..]
-}
-
-/// Smallest displacement (mm) of some points.
-fn least(points: &[[f64; 2]]) -> f64 {
-    points.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min)
-}
-
-/// Whether the displacement has turned twice.
-fn turned(path: &Path) -> bool {
-    let falling = falling(path);
-    path.points.last().is_some_and(|[force, w]| {
-        falling[0][0] > 300.0 && *force < 240.0 && *w > least(falling) + 0.05
-    })
-}
-
-/// An end-notched specimen under a force.
-fn under_force(notch: f64) -> (Model, Conditions) {
-    let (model, mut conditions, loaded) = notched(notch);
-    for node in loaded {
-        let y = model.mesh().nodes()[node][1];
-        let corner = y == 0.0 || y == B;
-        let share = if corner { 1.0 / 6.0 } else { 4.0 / 6.0 };
-        conditions
-            .add_reference(&model, node, Dof::Uz, -share)
-            .unwrap();
-    }
-    (model, conditions)
 }
 
 /// Whether the force has fallen to that of a crack of 38 mm, or of 47 mm.

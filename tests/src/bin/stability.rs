@@ -1,20 +1,30 @@
 //! Writes `docs/stability.md` and its chart: which method survives what.
 //!
-//! `cargo run --release -p fe-tests --bin stability`
+//! `cargo run --release -p fe-tests --bin stability`; with names of scenarios behind it (`-- STAB-22`) only those are
+//! run, by the automatic driver, and shown.
 
 use std::error::Error;
 use std::fmt::Write;
 use std::path::Path;
 use std::process::Command;
 
-use fe_tests::stability::{Case, Figure, Method, Outcome, SCENARIOS, Scenario, Target, chart};
+use fe_tests::stability::{Figure, Method, Outcome, SCENARIOS, Scenario, Target, chart};
 
 const COMMAND: &str = "cargo run --release -p fe-tests --bin stability";
-/// Lengths of the steps over those of the scene.
-const COARSE: [f64; 3] = [0.5, 1.0, 2.0];
 
-/// Name of a scene, with the outcome by every method.
-type Row = (String, Vec<Outcome>);
+/// What the automatic driver does not solve.
+const UNSOLVED: &str = "\
+## What is not solved
+
+- **STAB-11, law fixed-crack.** A crack whose axes are frozen goes on transferring shear when the strain turns away from it, so that \
+the principal stress exceeds the tensile strength: by damage 1.46 times it, falling to nothing; by interlock 2.9 times it, as long as the \
+crack is narrow. No run says so. The law `objective`, whose cracks rotate, is free of it, but does not fail in shear where the beams \
+did. What this costs in beams is not known.
+
+";
+
+/// Name of a scenario, with the outcome by every method that applies.
+type Row = (String, Vec<Option<Outcome>>);
 
 /// Short name of the commit that is checked out.
 fn commit() -> String {
@@ -40,8 +50,13 @@ fn figure(figure: &Figure) -> String {
 }
 
 /// A row of outcomes and a table of figures of one scene.
-fn section(scenario: &Scenario, coarse: f64, text: &mut String) -> Result<Row, Box<dyn Error>> {
-    let name = format!("{}: {}, steps x {coarse}", scenario.id, scenario.title);
+fn section(
+    scenario: &Scenario,
+    coarse: Option<f64>,
+    text: &mut String,
+) -> Result<Row, Box<dyn Error>> {
+    let steps = coarse.map_or_else(String::new, |c| format!(", steps x {c}"));
+    let name = format!("{}: {}{steps}", scenario.id, scenario.title);
     writeln!(text, "\n### {name}\n")?;
     writeln!(
         text,
@@ -50,9 +65,13 @@ fn section(scenario: &Scenario, coarse: f64, text: &mut String) -> Result<Row, B
     writeln!(text, "|---|---|---|---|---|---|---|---|")?;
     let mut outcomes = Vec::new();
     for method in Method::ALL {
-        let case = Case::run(scenario, method, coarse)?;
+        let Some(case) = (scenario.run)(method, coarse.unwrap_or(1.0)) else {
+            outcomes.push(None);
+            continue;
+        };
+        let case = case?;
         let outcome = case.outcome();
-        outcomes.push(outcome);
+        outcomes.push(Some(outcome));
         let figures: Vec<String> = case.figures.iter().map(figure).collect();
         let said = case.stopped.clone().unwrap_or_else(|| match case.marked {
             0 => String::new(),
@@ -81,7 +100,7 @@ fn tally(rows: &[Row], text: &mut String) -> std::fmt::Result {
     for (column, method) in Method::ALL.iter().enumerate() {
         write!(text, "| {} |", method.label())?;
         for wanted in Outcome::ALL {
-            let ends = rows.iter().filter(|(_, o)| o[column] == wanted);
+            let ends = rows.iter().filter(|(_, o)| o[column] == Some(wanted));
             write!(text, " {} |", ends.count())?;
         }
         writeln!(text)?;
@@ -89,25 +108,61 @@ fn tally(rows: &[Row], text: &mut String) -> std::fmt::Result {
     Ok(())
 }
 
+/// Shows single scenarios by the automatic driver.
+fn show(names: &[String]) -> Result<(), Box<dyn Error>> {
+    for scenario in SCENARIOS
+        .iter()
+        .filter(|s| names.iter().any(|n| s.id.contains(n)))
+    {
+        for coarse in if scenario.coarse.is_empty() {
+            &[1.0]
+        } else {
+            scenario.coarse
+        } {
+            let Some(case) = (scenario.run)(Method::Automatic, *coarse) else {
+                continue;
+            };
+            let case = case?;
+            println!("{} x {coarse}: {}", scenario.id, case.outcome().label());
+            case.figures
+                .iter()
+                .for_each(|f| println!("  {}", figure(f)));
+            println!("  {:?} {:?}", case.counters, case.stopped);
+        }
+    }
+    Ok(())
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
+    let names: Vec<String> = std::env::args().skip(1).collect();
+    if !names.is_empty() {
+        return show(&names);
+    }
     let mut rows = Vec::new();
     let mut sections = String::new();
     for scenario in &SCENARIOS {
-        for coarse in COARSE {
-            rows.push(section(scenario, coarse, &mut sections)?);
+        if scenario.coarse.is_empty() {
+            rows.push(section(scenario, None, &mut sections)?);
+        }
+        for coarse in scenario.coarse {
+            rows.push(section(scenario, Some(*coarse), &mut sections)?);
         }
     }
     let commit = commit();
     let mut text = format!(
         "# Which method survives what\n\nWritten at commit {commit} by\n\n```console\n$ {COMMAND}\n```\n\n\
-         Every scene has a known path; every method is given it at three lengths of its steps. A case is *correct* if it arrives and \
+         Every scenario of the catalogue of stability, STAB-01 to STAB-25, has known figures. Those with a path are given to every \
+         method that applies, at three lengths of the steps; the others, which depend on no method, stand in the first column: laws, \
+         elements and solver as they are by default. A case is *correct* if it arrives and \
          all figures are within tolerance, *stopped* if the method gives up with an error, *wrong, says so* if a figure is off and the \
-         run marked steps as jumps or as missing the criterion, *wrong and silent* otherwise. Counts are deterministic. A path that \
+         run marked steps as jumps, as missing the criterion or as out of equilibrium, *wrong and silent* otherwise. Counts are deterministic. A path that \
          stops early shows the figures up to there.\n\n\
-         Only the scenes of path following are here; other scenarios of the catalogue are single tests, listed in \
-         [tests/README.md](../tests/README.md).\n\n![matrix](stability.svg)\n\n",
+         ![matrix](stability.svg)\n\n",
     );
     tally(&rows, &mut text)?;
+    text.push('\n');
+    text.push_str(UNSOLVED);
+    text.push_str("## Figures\n");
     text.push_str(&sections);
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
     std::fs::write(docs.join("stability.md"), text)?;

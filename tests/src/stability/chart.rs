@@ -8,12 +8,15 @@ const NAME: f64 = 545.0;
 const CELL: [f64; 2] = [64.0, 26.0];
 const HEAD: f64 = 150.0;
 
-/// Rows with a name and one outcome per method, below the names of the methods, above a caption.
+/// Rows with a name and one outcome per method that applies, below the names of the methods, above a caption.
 ///
 /// # Errors
 ///
 /// None: a string takes what is written.
-pub fn chart(rows: &[(String, Vec<Outcome>)], caption: &str) -> Result<String, std::fmt::Error> {
+pub fn chart(
+    rows: &[(String, Vec<Option<Outcome>>)],
+    caption: &str,
+) -> Result<String, std::fmt::Error> {
     let width = NAME + CELL[0] * Method::ALL.len() as f64 + 80.0;
     let bottom = HEAD + CELL[1] * rows.len() as f64;
     let mut out = String::new();
@@ -35,7 +38,9 @@ pub fn chart(rows: &[(String, Vec<Outcome>)], caption: &str) -> Result<String, s
         let y = HEAD + CELL[1] * row as f64;
         writeln!(out, r#"<text x="10" y="{}">{name}</text>"#, y + 17.0)?;
         for (i, outcome) in outcomes.iter().enumerate() {
-            cell(&mut out, [NAME + CELL[0] * i as f64, y], *outcome)?;
+            if let Some(outcome) = outcome {
+                cell(&mut out, [NAME + CELL[0] * i as f64, y], *outcome)?;
+            }
         }
     }
     for (i, outcome) in Outcome::ALL.into_iter().enumerate() {

@@ -7,15 +7,37 @@
 mod chart;
 mod figures;
 mod method;
-mod scenario;
+mod paths;
+mod scenarios;
 
 pub use chart::chart;
 pub use figures::{Figure, Target};
 pub use method::Method;
-pub use scenario::{BAR_1000, BAR_2000, SCENARIOS, STRIP, Scenario};
+pub use paths::{Scene, Steps};
+pub use scenarios::{LONG, LONGER, SCENARIOS, STRIP};
 
-use fe_solver::error::SolverError;
 use fe_solver::stage::Counters;
+
+use crate::driven::Driven;
+
+/// What keeps a scenario from being set up.
+pub type Failure = Box<dyn std::error::Error>;
+
+/// One scenario of the catalogue.
+#[derive(Debug, Clone, Copy)]
+pub struct Scenario {
+    /// Name in the catalogue.
+    pub id: &'static str,
+    /// What happens.
+    pub title: &'static str,
+    /// Lengths of its steps over the usual ones at which it is run; empty where there are no steps.
+    pub coarse: &'static [f64],
+    /// Runs it by a method; none where the method does not apply. What depends on no method is run by the automatic one.
+    pub run: fn(Method, f64) -> Option<Result<Case, Failure>>,
+}
+
+/// Lengths of steps of scenes that have a path.
+pub const COARSE: &[f64] = &[0.5, 1.0, 2.0];
 
 /// What came of a scenario by one method.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,19 +66,24 @@ pub enum Outcome {
 }
 
 impl Case {
-    /// Runs a scenario by a method, with its steps `coarse` times as long.
-    ///
-    /// # Errors
-    ///
-    /// [`SolverError`] where there is no path at all.
-    pub fn run(scenario: &Scenario, method: Method, coarse: f64) -> Result<Self, SolverError> {
-        let path = method.follow(scenario, coarse)?;
-        Ok(Self {
-            figures: (scenario.figures)(&path),
-            stopped: path.stopped,
-            marked: path.marked,
-            counters: path.counters,
-        })
+    /// Figures without a path.
+    pub fn checked(figures: Vec<Figure>) -> Self {
+        Self {
+            figures,
+            stopped: None,
+            marked: 0,
+            counters: Counters::default(),
+        }
+    }
+
+    /// Figures of a path under imposed displacements.
+    pub fn driven(driven: Driven, figures: Vec<Figure>) -> Self {
+        Self {
+            figures,
+            stopped: driven.stopped,
+            marked: driven.marked,
+            counters: driven.counters,
+        }
     }
 
     /// How it ended.

@@ -1,0 +1,151 @@
+//! Paths under imposed displacements.
+
+use fe_core::model::{Conditions, Model};
+use fe_core::state::StateStore;
+use fe_solver::control::StepControl;
+use fe_solver::driver::Driver;
+use fe_solver::error::SolverError;
+use fe_solver::recorder::{Continue, Recorder, StepView};
+use fe_solver::stage::{Counters, Stage};
+
+/// One way of the imposed displacement: how far (mm), and in steps of what length (mm).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leg {
+    /// Where it leads (mm), from the end of the leg before.
+    pub to: f64,
+    /// First and longest step (mm).
+    pub step: f64,
+}
+
+/// Load (N) over imposed displacement (mm), and what it took.
+#[derive(Debug, Default)]
+pub struct Driven {
+    /// Displacement and load of every step.
+    pub points: Vec<[f64; 2]>,
+    /// Iterations of every step.
+    pub iterations: Vec<usize>,
+    /// Steps that jumped, or missed the criterion.
+    pub marked: usize,
+    /// Largest number of negative pivots.
+    pub negative: usize,
+    /// Viscous work over the work, of drivers whose laws lag behind.
+    pub viscous: Option<f64>,
+    /// Why it did not arrive.
+    pub stopped: Option<String>,
+    /// Work done.
+    pub counters: Counters,
+    from: f64,
+    sign: f64,
+    criterion: f64,
+}
+
+impl Recorder for Driven {
+    fn step(&mut self, view: &StepView<'_>) -> std::io::Result<Continue> {
+        let missed = view.residual > self.criterion;
+        self.marked += usize::from(view.flagged || view.held || missed);
+        self.negative = self.negative.max(view.negative_pivots);
+        self.viscous = view.viscous;
+        self.iterations.push(view.iterations);
+        let at = self.from + self.sign * view.lambda;
+        self.points.push([at, self.sign * view.load]);
+        Ok(Continue::Yes)
+    }
+}
+
+impl Driven {
+    /// Largest load (N).
+    pub fn peak(&self) -> f64 {
+        self.points.iter().map(|p| p[1]).fold(0.0, f64::max)
+    }
+
+    /// Work up to a step (N mm).
+    fn work(&self, until: usize) -> f64 {
+        let mut last = [0.0; 2];
+        let mut work = 0.0;
+        for p in &self.points[..until] {
+            work += 0.5 * (p[1] + last[1]) * (p[0] - last[0]);
+            last = *p;
+        }
+        work
+    }
+
+    /// Dissipated energy at the end (N mm), where unloading is a secant: work less 1/2 P u.
+    pub fn dissipated(&self) -> f64 {
+        let stored = self.points.last().map_or(0.0, |p| 0.5 * p[0] * p[1]);
+        self.work(self.points.len()) - stored
+    }
+
+    /// Largest energy (N mm) that a step created: fall of work less 1/2 P u.
+    pub fn created(&self) -> f64 {
+        let spent = |n: usize| {
+            let stored = n
+                .checked_sub(1)
+                .map_or(0.0, |i| 0.5 * self.points[i][0] * self.points[i][1]);
+            self.work(n) - stored
+        };
+        let falls = (0..self.points.len()).map(|n| spent(n) - spent(n + 1));
+        falls.fold(0.0, f64::max)
+    }
+
+    /// Iterations that `share` of all steps do not exceed.
+    pub fn iterations_within(&self, share: f64) -> usize {
+        let mut sorted = self.iterations.clone();
+        sorted.sort_unstable();
+        let last = (share * sorted.len() as f64).ceil() as usize;
+        sorted
+            .get(last.saturating_sub(1))
+            .copied()
+            .unwrap_or(usize::MAX)
+    }
+}
+
+/// Moves a model from the virgin state along legs, the displacement growing by 1 mm per unit of the load factor of
+/// `conditions`.
+///
+/// # Errors
+///
+/// [`SolverError`] where there is no path at all; later ones are kept.
+pub fn drive(
+    model: &Model,
+    conditions: &Conditions,
+    legs: &[Leg],
+    criterion: f64,
+    driver: &mut dyn Driver,
+) -> Result<Driven, SolverError> {
+    let mut state = StateStore::new(model.elements());
+    let mut u = vec![0.0; model.dofs().len()];
+    let mut driven = Driven {
+        criterion,
+        ..Driven::default()
+    };
+    for leg in legs {
+        let way = leg.to - driven.from;
+        driven.sign = way.signum();
+        let mut turned = conditions.clone();
+        for (dof, rate) in conditions.prescribed() {
+            let (node, kind) = model.dofs().owner(*dof);
+            turned.prescribe(model, node, kind, way.signum() * rate)?;
+        }
+        let control = StepControl {
+            criterion,
+            shortest: leg.step / 1024.0,
+            ..StepControl::new(leg.step, way.abs())
+        };
+        let mut stage = Stage::new(model, turned, &mut state, u.clone())?;
+        let end = control.run(&mut stage, driver, &mut driven);
+        let c = stage.counters();
+        let sum = &mut driven.counters;
+        sum.steps += c.steps;
+        sum.iterations += c.iterations;
+        sum.cutbacks += c.cutbacks;
+        sum.factorisations += c.factorisations;
+        sum.force_evaluations += c.force_evaluations;
+        u = stage.displacement().to_vec();
+        if let Err(error) = end {
+            driven.stopped = Some(error.to_string());
+            break;
+        }
+        driven.from = leg.to;
+    }
+    Ok(driven)
+}

@@ -1,0 +1,41 @@
+//! STAB-21: end-notched flexure with a notch of 0.4 of the half span: the displacement turns back, and on again.
+
+use crate::delamination::{falling, least, turned, under_force};
+use crate::follow::Path;
+use crate::stability::{COARSE, Figure, Scenario, Scene, Steps};
+
+fn figures(path: &Path) -> Vec<Figure> {
+    let falling = falling(path);
+    let on = falling.iter().filter(|p| p[0] < 300.0);
+    let worst = on.map(|[load, w]| crate::delamination::off(*load, *w));
+    vec![
+        Figure::near("turning point, mm", least(falling), 1.499, 6e-3),
+        Figure::at_most(
+            "largest distance from beam theory",
+            worst.fold(0.0, f64::max),
+            0.012,
+        ),
+    ]
+}
+
+const SCENE: Scene = Scene {
+    model: || under_force(20.0),
+    steps: Steps {
+        displacement: 0.1,
+        load: 25.0,
+        arc: 1.0,
+        energy: 4.0,
+        start: 1.6,
+    },
+    criterion: 1e-4,
+    arrived: turned,
+    figures,
+};
+
+/// The scenario.
+pub const SHORT: Scenario = Scenario {
+    id: "STAB-21",
+    title: "end-notched flexure, notch of 0.4 of the half span: snap-back and return",
+    coarse: COARSE,
+    run: |method, coarse| SCENE.run(method, coarse),
+};
