@@ -56,6 +56,35 @@ pub fn strain_transform(n: &Matrix3<f64>) -> Matrix6<f64> {
     t
 }
 
+/// Strain in axes `n` (columns are the unit axes), N^T e N: [`strain_transform`] times the strain, for less.
+pub fn strain_into(n: &Matrix3<f64>, strain: &Vector6<f64>) -> Vector6<f64> {
+    let moved = strain_tensor(strain) * n;
+    Vector6::from_fn(|i, _| {
+        let (a, b) = PAIRS[i];
+        let factor = if i < 3 { 1.0 } else { 2.0 };
+        factor * n.column(a).dot(&moved.column(b))
+    })
+}
+
+/// Stress of which `local` are the components in axes `n`, N s N^T: the transpose of [`strain_transform`] times the local
+/// stress, for less.
+pub fn stress_out_of(n: &Matrix3<f64>, local: &Vector6<f64>) -> Vector6<f64> {
+    let moved = stress_tensor(local) * n.transpose();
+    Vector6::from_fn(|i, _| {
+        let (a, b) = PAIRS[i];
+        n.row(a).transpose().dot(&moved.column(b))
+    })
+}
+
+/// Stress of which `values` are the principal values along axes `n`, sum s_i n_i n_i^T.
+pub fn stress_along(n: &Matrix3<f64>, values: &Vector3<f64>) -> Vector6<f64> {
+    let scaled = Matrix3::from_fn(|k, i| n[(k, i)] * values[i]);
+    Vector6::from_fn(|i, _| {
+        let (a, b) = PAIRS[i];
+        (0..3).map(|k| scaled[(a, k)] * n[(b, k)]).sum()
+    })
+}
+
 /// Stress transformation (6 x 6) into axes `n`: s_local = T s.
 pub fn stress_transform(n: &Matrix3<f64>) -> Matrix6<f64> {
     let mut t = Matrix6::zeros();
@@ -248,5 +277,9 @@ mod tests {
         assert!((stress_transform(&n) * s - s_local).norm() < 1e-13);
         assert!((strain_transform(&n).transpose() * s_local - s).norm() < 1e-13);
         assert!((e.dot(&s) - e_local.dot(&s_local)).abs() < 1e-13);
+        assert!((strain_into(&n, &e) - e_local).norm() < 1e-13);
+        assert!((stress_out_of(&n, &s_local) - s).norm() < 1e-13);
+        let (values, axes) = principal(&stress_tensor(&s));
+        assert!((stress_along(&axes, &values) - s).norm() < 1e-13);
     }
 }

@@ -193,7 +193,8 @@ impl Verdict {
         let flagged = before.iter().filter(|p| p.flagged).count();
         let jumps = (0..steps).filter(|&i| is_jump(path, i)).count();
         let worst_flagged = worst(&mut before.iter().filter(|p| p.flagged));
-        let unbalanced = worst(&mut before.iter().filter(|p| !p.flagged));
+        let loaded = |p: &&PathPoint| !p.flagged && p.load > 0.0;
+        let unbalanced = worst(&mut before.iter().filter(loaded));
         let regular = |&i: &usize| !path[i].flagged && !is_jump(path, i);
         let last = (0..steps).rev().find(regular).map(|i| path[i]);
         let gap = last.map(|p| p.work_conjugate_load - p.load);

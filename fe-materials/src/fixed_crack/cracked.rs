@@ -2,7 +2,7 @@
 
 use fe_core::kinematics::Solid;
 use fe_core::material::{MaterialError, Operator, PointContext, Response};
-use fe_core::voigt::strain_transform;
+use fe_core::voigt::{strain_into, strain_transform, stress_out_of};
 use nalgebra::{Matrix6, Vector6};
 
 use super::shear_transfer::{self, Interlock};
@@ -30,8 +30,7 @@ impl FixedCrack {
         out: &mut Response<Solid>,
     ) -> Result<(), MaterialError> {
         let (tension, compression) = self.envelopes(state, ctx.band_width)?;
-        let t = strain_transform(&state.axes);
-        let e = t * strain;
+        let e = strain_into(&state.axes, strain);
         let young = self.p.young_mpa;
         let mut local = Vector6::zeros();
         let mut d = Matrix6::zeros();
@@ -148,8 +147,9 @@ impl FixedCrack {
                 d[(row, row)] = (local[i] - local[j]) / (2.0 * gap);
             }
         }
-        out.stress = t.tr_mul(&local);
+        out.stress = stress_out_of(&state.axes, &local);
         if ctx.operator != Operator::None {
+            let t = strain_transform(&state.axes);
             out.tangent = t.tr_mul(&d) * t;
         }
         Ok(())
@@ -177,7 +177,7 @@ impl FixedCrack {
         ctx: &PointContext,
     ) -> Option<f64> {
         let (tension, compression) = self.envelopes(state, ctx.band_width).ok()?;
-        let e = strain_transform(&state.axes) * strain;
+        let e = strain_into(&state.axes, strain);
         let secants = |i: usize| {
             (
                 tension[i].secant(state.kt[i]),

@@ -39,7 +39,7 @@ use fe_core::kinematics::Solid;
 use fe_core::material::{
     Material, MaterialError, Operator, PointContext, PointReport, Response, StateVar,
 };
-use fe_core::voigt::strain_transform;
+use fe_core::voigt::strain_into;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 pub use compression_softening::CompressionSoftening;
@@ -339,7 +339,7 @@ impl Material<Solid> for FixedCrack {
                 ..PointReport::default()
             };
         }
-        let local = strain_transform(&state.axes) * strain;
+        let local = strain_into(&state.axes, strain);
         let opening: Vector3<f64> =
             local.fixed_rows::<3>(0) - Vector3::from(self.strains_at_onset(state.onset));
         let (axis, crack_strain) = opening.argmax();

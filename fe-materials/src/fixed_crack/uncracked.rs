@@ -2,7 +2,7 @@
 
 use fe_core::kinematics::Solid;
 use fe_core::material::{MaterialError, Operator, PointContext, Response};
-use fe_core::voigt::{principal, strain_tensor, strain_transform};
+use fe_core::voigt::{principal, strain_tensor, strain_transform, stress_along};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use super::curves::Compression;
@@ -54,11 +54,9 @@ impl FixedCrack {
         for k in state.kc {
             state.crushing = state.crushing.max(compression.crushing(k));
         }
-        let t = strain_transform(&axes);
-        let mut local = Vector6::zeros();
-        local.fixed_rows_mut::<3>(0).copy_from(&stress);
-        out.stress = t.tr_mul(&local);
+        out.stress = stress_along(&axes, &stress);
         if ctx.operator != Operator::None {
+            let t = strain_transform(&axes);
             let mut d = Matrix6::zeros();
             for i in 0..3 {
                 for j in 0..3 {

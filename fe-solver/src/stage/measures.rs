@@ -17,9 +17,9 @@ pub const LEAST_SCALE: f64 = 1e-3;
 /// Size of a residual.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Residual {
-    /// |f_ext - f_int| on the free equations over the norm of the reactions (2-norms), which counts as [`LEAST_SCALE`] of
-    /// the largest of all accepted steps where it is less, and as 1 N where there has been none. Infinite if a
-    /// force is not a number.
+    /// |f_ext - f_int| on the free equations over the norm of the reactions or that of the forces applied, whichever is more
+    /// (2-norms), which counts as [`LEAST_SCALE`] of the largest reactions of all accepted steps where it is less, and as
+    /// 1 N where there has been none. Infinite if a force is not a number.
     pub relative: f64,
     /// Largest component (N).
     pub largest: f64,
@@ -28,7 +28,7 @@ pub struct Residual {
 }
 
 impl Stage<'_> {
-    /// Size of a residual, measured against the reactions of the last evaluation.
+    /// Size of a residual, measured against the forces of the last evaluation.
     pub fn measure(&self, residual: &[f64]) -> Residual {
         let reactions = self.reactions();
         let (mut sum, mut largest, mut worst) = (0.0, 0.0, 0);
@@ -39,7 +39,13 @@ impl Stage<'_> {
                 (largest, worst) = (r.abs(), d as usize);
             }
         }
-        let scale = reactions.max(LEAST_SCALE * self.largest_reactions);
+        // Forces may balance one another and leave no reaction.
+        let free = self.assembler.free().iter();
+        let applied = free.map(|&d| self.external[d as usize].powi(2));
+        let applied = applied.sum::<f64>().sqrt();
+        let scale = reactions
+            .max(applied)
+            .max(LEAST_SCALE * self.largest_reactions);
         let scale = if scale > 0.0 { scale } else { 1.0 };
         let relative = if sum == 0.0 { 0.0 } else { sum.sqrt() / scale };
         let finite = relative.is_finite() && reactions.is_finite();

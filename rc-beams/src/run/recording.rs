@@ -118,6 +118,7 @@ impl<'a> Recording<'a> {
             p_star_kn: (step > 0).then_some(reading.work_conjugate_load_kn),
             reactions_kn: reading.reactions_kn.clone(),
             negative_pivots: view.negative_pivots,
+            critical: view.critical,
             residual: view.residual,
             criterion: self.criterion,
             iterations: view.iterations,

@@ -1,6 +1,7 @@
 //! Tables that grow during a run: steps, gauges, iterations.
 
 use fe_solver::capacity::PathPoint;
+use fe_solver::critical::Critical;
 use fe_solver::recorder::IterationRecord;
 
 use super::error::ResultsError;
@@ -21,8 +22,10 @@ pub struct StepRow {
     pub p_star_kn: Option<f64>,
     /// Vertical reaction of each support, from left to right (kN).
     pub reactions_kn: Vec<f64>,
-    /// Negative pivots of the last factorisation.
+    /// Negative pivots of the tangent.
     pub negative_pivots: usize,
+    /// Critical point passed on the way.
+    pub critical: Option<Critical>,
     /// Relative residual.
     pub residual: f64,
     /// Criterion it is held against.
@@ -73,6 +76,7 @@ impl StepRow {
         cells.extend(self.reactions_kn.iter().copied().map(number));
         cells.extend([
             self.negative_pivots.to_string(),
+            self.critical.map_or_else(String::new, |c| c.to_string()),
             number(self.residual),
             number(self.criterion),
             self.iterations.to_string(),
@@ -90,10 +94,11 @@ impl StepRow {
 }
 
 /// Columns of `history.csv` before and after the reactions.
-const STEP_COLUMNS: ([&str; 4], [&str; 12]) = (
+const STEP_COLUMNS: ([&str; 4], [&str; 13]) = (
     ["step", "deflection_mm", "load_kn", "p_star_kn"],
     [
         "negative_pivots",
+        "critical",
         "residual",
         "criterion",
         "iterations",
@@ -261,10 +266,10 @@ mod tests {
         history.step(&step, &[1.5e-5]).unwrap();
 
         let expected = "step,deflection_mm,load_kn,p_star_kn,reaction_x610_kn,reaction_x2440_kn,\
-                        negative_pivots,residual,criterion,iterations,attempts,held,flagged,step_mm,kinetic_share,\
+                        negative_pivots,critical,residual,criterion,iterations,attempts,held,flagged,step_mm,kinetic_share,\
                         viscous_share,factorisations,force_evaluations\n\
-                        0,0,0,,0,0,0,0.0005,0.001,3,1,0,0,0,,,0,0\n\
-                        1,0.1,20,20.25,10,10,0,0.0005,0.001,3,1,0,0,0,,,0,0\n";
+                        0,0,0,,0,0,0,,0.0005,0.001,3,1,0,0,0,,,0,0\n\
+                        1,0.1,20,20.25,10,10,0,,0.0005,0.001,3,1,0,0,0,,,0,0\n";
         assert_eq!(read("history.csv"), expected);
         assert_eq!(
             read("gauges.csv"),
