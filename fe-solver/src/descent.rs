@@ -10,6 +10,11 @@
 //! stiffer than its secant (an open crack that closes) a full step would overshoot into compression and crush
 //! what it meets; there alpha is shortened until r' . du >= -0.3 r . du, before the history is kept.
 //!
+//! Where a step fell short, the next one under the same factor reaches as far as this one should have (Barzilai and
+//! Borwein 1988, with K as the metric):
+//!
+//! alpha' = alpha r . du/(r . du - r' . du), between 1 and 4; 4 where r' . du >= r . du, on the way down.
+//!
 //! So a snap runs down to its end as far as equilibrium is missing and no further; an instability that only begins
 //! grows by itself. The end is a state of equilibrium; the states between are not, and are not reported.
 
@@ -31,6 +36,8 @@ pub struct DescentSettings {
     pub overshoot: f64,
     /// Smallest step factor.
     pub least_factor: f64,
+    /// Largest step factor to begin a step with; 1 never goes beyond the secant step.
+    pub largest_factor: f64,
 }
 
 impl Default for DescentSettings {
@@ -40,9 +47,13 @@ impl Default for DescentSettings {
             rebuild_after: 10,
             overshoot: 0.3,
             least_factor: 0.05,
+            largest_factor: 4.0,
         }
     }
 }
+
+/// Step factor below which the secant operator has been left behind and is rebuilt.
+const STALE: f64 = 0.5;
 
 /// A descent under way.
 #[derive(Debug)]
@@ -54,6 +65,8 @@ pub(crate) struct Descent {
     residual: Vec<f64>,
     /// Iterations with the present factor.
     age: usize,
+    /// Step factor to begin the next step with.
+    reach: f64,
     /// Evaluations so far.
     pub iterations: usize,
 }
@@ -72,6 +85,7 @@ impl Descent {
             lambda,
             residual: Vec::new(),
             age: 0,
+            reach: 1.0,
             iterations: 0,
         };
         descent.renew(stage)?;
@@ -85,6 +99,7 @@ impl Descent {
         self.residual = stage.residual(&u, self.lambda, &operator)?;
         self.iterations += 1;
         self.age = 0;
+        self.reach = 1.0;
         stage.factorise()
     }
 
@@ -106,11 +121,21 @@ impl Descent {
             size = stage.measure(&self.residual);
             log(&size, alpha)?;
             stage.advance();
-            if alpha < 1.0 || self.age >= self.settings.rebuild_after {
+            if alpha < STALE || self.age >= self.settings.rebuild_after {
                 self.renew(stage)?;
             }
         }
         Ok(size)
+    }
+
+    /// Factor to begin the next step with, after one by `alpha` along which the residual fell from `slope` to `there`.
+    fn reach_after(&self, alpha: f64, slope: f64, there: f64) -> f64 {
+        let largest = self.settings.largest_factor;
+        if there < slope {
+            (alpha * slope / (slope - there)).clamp(1.0, largest)
+        } else {
+            largest
+        }
     }
 
     /// One step; returns its factor.
@@ -120,7 +145,7 @@ impl Descent {
         self.age += 1;
         let slope = dot(&self.residual, &du);
         let force = EvaluationContext::new(Operator::None);
-        let mut alpha = 1.0;
+        let mut alpha = self.reach;
         loop {
             let trial: Vec<f64> = self
                 .free
@@ -134,6 +159,7 @@ impl Descent {
             let there = dot(&residual, &du);
             if there >= -self.settings.overshoot * slope || alpha <= self.settings.least_factor {
                 (self.free, self.residual) = (trial, residual);
+                self.reach = self.reach_after(alpha, slope, there);
                 return Ok(alpha);
             }
             alpha *= (slope / (slope - there)).clamp(0.1, 0.7);

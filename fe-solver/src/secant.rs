@@ -70,7 +70,9 @@ struct Snap {
 /// Relative residual below which a snap counts as small, and a descent gives over to the accelerated iteration.
 const NEAR: f64 = 1e-2;
 /// Iterations of a descent before that, and from one such attempt to the next.
-const LEG: usize = 30;
+const LEG: usize = 15;
+/// Iterations without halving the residual after which a solve this near has stalled: a snap is ahead.
+const STALL: usize = 8;
 
 impl SecantAnderson {
     /// A driver with the given settings.
@@ -93,6 +95,7 @@ impl SecantAnderson {
         let mut anderson = Anderson::new(self.settings.depth);
         let mut best: Option<(f64, Vec<f64>)> = None;
         let mut iterations = 0_usize;
+        let mut halved = (f64::INFINITY, 0_usize);
         loop {
             let rebuild = match iterations {
                 0 => !stage.holds_stable_tangent(),
@@ -113,7 +116,12 @@ impl SecantAnderson {
             if best.as_ref().is_none_or(|(b, _)| size.relative < *b) {
                 best = Some((size.relative, free.clone()));
             }
-            if iterations >= self.settings.max_iterations || !size.relative.is_finite() {
+            if size.relative < 0.5 * halved.0 {
+                halved = (size.relative, iterations);
+            }
+            let nearest = best.as_ref().map_or(f64::INFINITY, |(nearest, _)| *nearest);
+            let stalled = iterations >= halved.1 + STALL && nearest < NEAR;
+            if stalled || iterations >= self.settings.max_iterations || !size.relative.is_finite() {
                 let free = best.map_or(free, |(_, free)| free);
                 return Ok(Solve {
                     free,
@@ -177,7 +185,9 @@ impl SecantAnderson {
             let residual = descent.run(stage, criterion, LEG, log)?;
             let iterations = spent + descent.iterations;
             let over = iterations >= limit || !residual.relative.is_finite();
-            if residual.relative <= criterion || over {
+            // A snap that loses load is to be placed by shorter steps first: no use to follow it down.
+            let lost = limit <= self.settings.small_snap && Self::loss(stage) >= DROP_FALL;
+            if residual.relative <= criterion || over || lost {
                 return Ok(Snap {
                     free: descent.free,
                     residual,
@@ -198,6 +208,11 @@ impl SecantAnderson {
             }
             descent = Descent::start(stage, settings, descent.free, lambda)?;
         }
+    }
+
+    /// Share of the accepted load lost in the last evaluation.
+    fn loss(stage: &Stage<'_>) -> f64 {
+        1.0 - stage.load() / stage.accepted_load()
     }
 
     /// Residual of the inviscid law at `free`; the trial state becomes the inviscid one.
@@ -251,8 +266,7 @@ impl Driver for SecantAnderson {
             }
         }
         // A snap that loses load is placed by shorter steps before it is passed.
-        let loss = 1.0 - stage.load() / stage.accepted_load();
-        let placed = !held || last_resort || loss < DROP_FALL;
+        let placed = !held || last_resort || Self::loss(stage) < DROP_FALL;
         Ok(Attempt {
             displacement: stage.compose(&solve.free, lambda),
             lambda,

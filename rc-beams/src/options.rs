@@ -43,6 +43,10 @@ pub struct RunOptions {
     #[arg(long, value_enum)]
     pub sheet_shear: Option<SheetShear>,
 
+    /// Width that the bond of strips counts with; without it, that of the preset
+    #[arg(long, value_enum)]
+    pub strip_bond: Option<StripBond>,
+
     /// Run strengthened beams a second time with perfect bond, as evidence for the mode of failure
     #[arg(long)]
     pub counterfactual: bool,
@@ -209,6 +213,16 @@ pub enum SheetShear {
     Given,
     /// Half of Young's modulus along the fibres
     Half,
+}
+
+/// Width factor of the bond of strips (Lu et al. 2005).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum StripBond {
+    /// Width of the strips over their spacing
+    Strip,
+    /// As under a sheet that covers the concrete
+    Sheet,
 }
 
 /// Solution of a step.

@@ -6,7 +6,7 @@ use fe_materials::fixed_crack::{
 };
 
 use super::default_mesh;
-use crate::options::{Bond, Cracks, Law, Preset, SheetShear, SoffitFibre};
+use crate::options::{Bond, Cracks, Law, Preset, SheetShear, SoffitFibre, StripBond};
 use crate::spec::Specimen;
 
 /// Settings of a model.
@@ -38,14 +38,17 @@ pub struct ModelSettings {
     pub soffit_fibre: SoffitFibre,
     /// Shear modulus of the sheets.
     pub sheet_shear: SheetShear,
+    /// Width factor of the bond of strips.
+    pub strip_bond: StripBond,
 }
 
 impl ModelSettings {
     /// The settings of a preset on the mesh that suits a specimen, see [`default_mesh`].
     pub fn new(preset: Preset, specimen: &Specimen) -> Self {
-        let (soffit_fibre, sheet_shear) = match preset {
-            Preset::Reference => (SoffitFibre::Along, SheetShear::Half),
-            Preset::Physical | Preset::Characteristic => (SoffitFibre::Given, SheetShear::Given),
+        let (soffit_fibre, sheet_shear, strip_bond) = match preset {
+            Preset::Reference => (SoffitFibre::Along, SheetShear::Half, StripBond::Sheet),
+            Preset::Physical => (SoffitFibre::Given, SheetShear::Given, StripBond::Strip),
+            Preset::Characteristic => (SoffitFibre::Given, SheetShear::Given, StripBond::Sheet),
         };
         let plain = Self {
             preset,
@@ -63,6 +66,7 @@ impl ModelSettings {
             bond: Bond::Cohesive,
             soffit_fibre,
             sheet_shear,
+            strip_bond,
         };
         match preset {
             Preset::Physical | Preset::Reference => plain,

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeSet;
 
+use fe_contact::envelope::Envelope as _;
 use fe_core::mesh::NodeId;
 use fe_core::state::StateStore;
 use fe_solver::control::StepControl;
@@ -10,6 +11,7 @@ use fe_solver::recorder::{Continue, Recorder, StepView};
 use fe_solver::secant::SecantAnderson;
 use fe_solver::stage::Stage;
 
+use super::sheets::bond;
 use super::{Beam, ModelSettings, SheetRecord};
 use crate::options::{Bond, Preset};
 use crate::spec::{BUILTIN, Face, Specimen, read};
@@ -179,4 +181,29 @@ fn sheets_of_other_widths_angles_and_plies_are_laid() {
             assert!(fibres[2].abs() < 1e-6);
         })
         .unwrap();
+}
+
+/// The bond of strips counts with their width over their spacing, that of sheets and of the reference with 1.
+#[test]
+fn the_bond_of_strips_counts_with_their_width_over_their_spacing() {
+    for (name, ratio) in [
+        ("A-SO3-2", 0.4),
+        ("A-SO3-3", 0.6),
+        ("A-SO3-4", 1.0),
+        ("B-CO2", 0.4),
+        ("B-CF2", 1.0),
+    ] {
+        let specimen = specimen(name);
+        let height = specimen.beam.height_mm.get();
+        let sheets = specimen.sheets.as_ref().unwrap();
+        assert!((sheets.width_ratio(height) - ratio).abs() < 1e-12, "{name}");
+        let energy = |preset| {
+            let settings = ModelSettings::new(preset, &specimen);
+            bond(&specimen, sheets, &settings).unwrap().energy()
+        };
+        // The energy goes with the square of the width factor.
+        let more = energy(Preset::Physical) / energy(Preset::Reference);
+        let expected = (2.25 - ratio) / (1.25 + ratio) * 2.25 / 1.25;
+        assert!((more - expected).abs() < 1e-9, "{name} {more} {expected}");
+    }
 }

@@ -16,7 +16,7 @@ use fe_materials::{Lamina, LaminaParameters, Laminate, Ply};
 
 use super::laws::SolidLaw;
 use super::{BuildError, ModelSettings};
-use crate::options::{Bond, SheetShear, SoffitFibre};
+use crate::options::{Bond, SheetShear, SoffitFibre, StripBond};
 use crate::spec::{Adhesive, Cover, Face, SheetPly, Sheets, Specimen, Stretch};
 
 /// Axis 1 of the sheets, from which the fibres are measured: the beam axis.
@@ -104,7 +104,7 @@ pub(super) fn lay(
     settings: &ModelSettings,
     (mesh, blocks): (&mut Mesh, &[&str]),
 ) -> Result<(SheetRecord, Vec<Box<dyn Element>>), BuildError> {
-    let curve = bond(specimen)?;
+    let curve = bond(specimen, sheets, settings)?;
     let bond = SlipDamage::new(curve, BondSettings::default())?;
     let glue: SolidLaw = Arc::new(glue(&sheets.adhesive)?);
     let outer = skin::outer_faces(mesh, blocks);
@@ -275,12 +275,20 @@ impl Parts {
 }
 
 /// Bond after Lu, Teng, Ye and Jiang (2005), bilinear. The reported strength is read as the characteristic one,
-/// fcm = reported + 8 MPa, and the width factor is that of a sheet as wide as the concrete, also under strips: so
-/// the reference arrives at its table of bonds.
-fn bond(specimen: &Specimen) -> Result<Bilinear, BuildError> {
+/// fcm = reported + 8 MPa. The width ratio b_f/b_c is 1 under a sheet and, under strips, their width over their spacing, which
+/// is how Lu et al. read it; the reference takes 1 there too, and so arrives at its table of bonds.
+pub(super) fn bond(
+    specimen: &Specimen,
+    sheets: &Sheets,
+    settings: &ModelSettings,
+) -> Result<Bilinear, BuildError> {
     let strength = specimen.concrete.reported_strength_mpa.get();
     let fcm = ConcreteScalars::from_characteristic(strength)?.fcm_mpa;
-    Ok(LuJoint::from_cylinder_strength(fcm, 1.0).bilinear()?)
+    let ratio = match settings.strip_bond {
+        StripBond::Sheet => 1.0,
+        StripBond::Strip => sheets.width_ratio(specimen.beam.height_mm.get()),
+    };
+    Ok(LuJoint::from_cylinder_strength(fcm, ratio).bilinear()?)
 }
 
 fn glue(adhesive: &Adhesive) -> Result<Elastic, BuildError> {

@@ -40,6 +40,7 @@ pub(super) fn settings(options: &RunOptions, specimen: &Specimen) -> ModelSettin
     settings.law = options.law;
     settings.bond = options.bond;
     settings.soffit_fibre = options.soffit_fibre.unwrap_or(settings.soffit_fibre);
+    settings.strip_bond = options.strip_bond.unwrap_or(settings.strip_bond);
     settings.sheet_shear = options.sheet_shear.unwrap_or(settings.sheet_shear);
     if let Some(mesh) = options.mesh {
         settings.mesh = [mesh.nx, mesh.ny, mesh.nz];

@@ -151,6 +151,34 @@ pub enum HoldOrUnload {
     Unload,
 }
 
+impl Sheets {
+    /// Width of the strips over their spacing, of the layout where it is least; 1 where no layout has strips:
+    /// stretches, two or more, that are narrower than `height_mm`, that of the section.
+    pub fn width_ratio(&self, height_mm: f64) -> f64 {
+        let ratios = self.wraps.iter().filter_map(|w| w.width_ratio(height_mm));
+        ratios.fold(1.0, f64::min)
+    }
+}
+
+impl Wrap {
+    /// Width of the first strip over the least distance of the centres of two neighbours.
+    fn width_ratio(&self, height_mm: f64) -> Option<f64> {
+        let strips = self
+            .stretches
+            .iter()
+            .map(|s| (s.x_from_mm.get(), s.x_to_mm.get()))
+            .filter(|(from, to)| to - from < height_mm);
+        let mut centres: Vec<f64> = strips.clone().map(|(from, to)| from.midpoint(to)).collect();
+        centres.sort_by(f64::total_cmp);
+        let spacing = centres
+            .windows(2)
+            .map(|w| w[1] - w[0])
+            .min_by(f64::total_cmp)?;
+        let width = strips.map(|(from, to)| to - from).next()?;
+        Some((width / spacing).min(1.0))
+    }
+}
+
 impl Cover {
     /// Mean number of times every ply lies on the face, more than 1 with an overlap.
     pub fn smear(&self) -> f64 {
