@@ -275,8 +275,8 @@ impl Parts {
 }
 
 /// Bond after Lu, Teng, Ye and Jiang (2005), bilinear. The reported strength is read as the characteristic one,
-/// fcm = reported + 8 MPa. The width ratio b_f/b_c is 1 under a sheet and, under strips, their width over their spacing, which
-/// is how Lu et al. read it; the reference takes 1 there too, and so arrives at its table of bonds.
+/// fcm = reported + 8 MPa. The width ratio b_f/b_c is 1 under a sheet and, under strips, their width over their spacing, as
+/// Chen and Teng (2003) do for strips; the reference takes 1 there too, and so arrives at its table of bonds.
 pub(super) fn bond(
     specimen: &Specimen,
     sheets: &Sheets,
