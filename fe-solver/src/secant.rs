@@ -119,8 +119,8 @@ impl SecantAnderson {
             if size.relative < 0.5 * halved.0 {
                 halved = (size.relative, iterations);
             }
-            let nearest = best.as_ref().map_or(f64::INFINITY, |(nearest, _)| *nearest);
-            let stalled = iterations >= halved.1 + STALL && nearest < NEAR;
+            let near = best.as_ref().is_some_and(|(b, _)| *b < NEAR);
+            let stalled = near && iterations >= halved.1 + STALL;
             if stalled || iterations >= self.settings.max_iterations || !size.relative.is_finite() {
                 let free = best.map_or(free, |(_, free)| free);
                 return Ok(Solve {
@@ -167,18 +167,24 @@ impl SecantAnderson {
         Ok(free)
     }
 
-    /// From the accepted displacement to the next equilibrium at a held load factor within `limit` iterations: a
-    /// descent that the accelerated iteration ends once it is near.
+    /// From the accepted displacement to the next equilibrium at a held load factor: a descent that the accelerated
+    /// iteration ends once it is near. Given up after the iterations of a small snap, or once it has
+    /// lost load, unless it is the last resort.
     fn pass_snap(
         &self,
         stage: &mut Stage<'_>,
         lambda: f64,
         criterion: f64,
-        limit: usize,
+        last_resort: bool,
         log: &mut IterationLog<'_>,
     ) -> Result<Snap, SolverError> {
         let free = stage.restrict(stage.displacement());
         let settings = self.settings.descent;
+        let limit = if last_resort {
+            settings.max_iterations
+        } else {
+            settings.max_iterations.min(self.settings.small_snap)
+        };
         let mut descent = Descent::start(stage, settings, free, lambda)?;
         let mut spent = 0;
         loop {
@@ -186,7 +192,7 @@ impl SecantAnderson {
             let iterations = spent + descent.iterations;
             let over = iterations >= limit || !residual.relative.is_finite();
             // A snap that loses load is to be placed by shorter steps first: no use to follow it down.
-            let lost = limit <= self.settings.small_snap && Self::loss(stage) >= DROP_FALL;
+            let lost = !last_resort && Self::loss(stage) >= DROP_FALL;
             if residual.relative <= criterion || over || lost {
                 return Ok(Snap {
                     free: descent.free,
@@ -210,7 +216,7 @@ impl SecantAnderson {
         }
     }
 
-    /// Share of the accepted load lost in the last evaluation.
+    /// Share of the accepted load lost in the last evaluation; not a number where the load factor drives forces only.
     fn loss(stage: &Stage<'_>) -> f64 {
         1.0 - stage.load() / stage.accepted_load()
     }
@@ -247,16 +253,10 @@ impl Driver for SecantAnderson {
             Some(residual) => residual,
             None => Self::check(stage, &solve.free, lambda)?,
         };
-        let limit = if last_resort {
-            usize::MAX
-        } else {
-            self.settings.small_snap
-        };
         let held = residual.relative > criterion && (last_resort || residual.relative < NEAR);
         if held {
             let nearest = (residual.relative, solve.free);
-            let limit = limit.min(self.settings.descent.max_iterations);
-            let snap = self.pass_snap(stage, lambda, criterion, limit, log)?;
+            let snap = self.pass_snap(stage, lambda, criterion, last_resort, log)?;
             (solve.free, residual) = (snap.free, snap.residual);
             iterations += snap.iterations;
             if residual.relative > criterion && nearest.0 < residual.relative {
