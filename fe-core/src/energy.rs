@@ -2,8 +2,8 @@
 //!
 //! Between two recorded states the work of the internal forces of an element is, by the trapezoidal rule,
 //! dW = (f_n + f_(n+1)) . (u_(n+1) - u_n)/2, and the external work likewise, with the reactions where
-//! displacements are prescribed. What an element stores is its free energy, or f . u/2 where its law states none
-//! (exact for laws that unload to the origin). What it does not store it has dissipated: D = W - psi.
+//! displacements are prescribed. What an element stores is its free energy, or what unloading along the secant gives
+//! back where its law states none. What it does not store it has dissipated: D = W - psi.
 //!
 //! In equilibrium the external work is the sum of the internal works; the gap is the work of the residuals.
 
@@ -12,9 +12,8 @@ use rayon::prelude::*;
 use crate::element::{ElementError, ElementSystem, EvaluationContext, PointSample};
 use crate::kinematics::{Kinematics, Solid};
 use crate::model::{Conditions, Model, ModelError};
-use crate::state::StateStore;
-use crate::voigt::{stress_tensor, stress_voigt};
-use nalgebra::{Matrix3, Vector6};
+use crate::voigt::{principal, stress_along, stress_tensor};
+use nalgebra::Vector6;
 
 /// Energies of one part of a model (N mm).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -32,80 +31,107 @@ impl PartEnergy {
     }
 }
 
-/// What one element was like when it was last recorded.
+/// What one element was like at a state.
 #[derive(Debug, Clone, Default)]
-struct Last {
+struct Seen {
     force: Vec<f64>,
-    work: f64,
-    stored: f64,
+    energy: PartEnergy,
 }
 
-/// Accounts for the work done on the parts of a model. Starts in the undeformed, unloaded model.
-#[derive(Debug)]
+/// Share of work and stored energy by which the dissipation of a step may be negative.
+pub const RULE: f64 = 0.02;
+/// Share of the turnover by which it may be.
+pub const ROUNDING: f64 = 1e-6;
+
+/// Energies (N mm) of a whole model from one state to the next.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Change {
+    /// Work of the internal forces.
+    pub work: f64,
+    /// Change of the recoverable energy.
+    pub stored: f64,
+    /// Sizes of all works done so far, element by element.
+    pub turnover: f64,
+}
+
+impl Change {
+    /// Dissipated energy (N mm).
+    pub fn dissipated(&self) -> f64 {
+        self.work - self.stored
+    }
+
+    /// Whether energy has been created: a negative dissipation of more than what the trapezoidal rule may err by, the share
+    /// [`RULE`] of what has been done and stored, and rounding, the share [`ROUNDING`] of the turnover.
+    pub fn creates_energy(&self) -> bool {
+        let size = self.work.abs() + self.stored.abs();
+        self.dissipated() < -RULE * size - ROUNDING * self.turnover
+    }
+}
+
+/// Accounts for the work done on the elements of a model. Starts in the undeformed, unloaded model.
+///
+/// A new state is [weighed](Self::weigh) while it is on trial, and [settled](Self::settle) when it is accepted.
+#[derive(Debug, Default)]
 pub struct Ledger {
-    /// Part of every element.
-    part: Vec<usize>,
-    parts: usize,
-    elements: Vec<Last>,
+    elements: Vec<Seen>,
+    weighed: Vec<Seen>,
+    at: Totals,
+    next: Totals,
+}
+
+/// What the books say of the whole model.
+#[derive(Debug, Clone, Default)]
+struct Totals {
     displacement: Vec<f64>,
     external: Vec<f64>,
     external_work: f64,
 }
 
 impl Ledger {
-    /// A ledger of `parts` parts in which element e belongs to part `part[e]`.
-    pub fn new(part: Vec<usize>, parts: usize) -> Self {
-        Self {
-            elements: vec![Last::default(); part.len()],
-            parts,
-            part,
-            displacement: Vec::new(),
-            external: Vec::new(),
-            external_work: 0.0,
-        }
-    }
-
-    /// Goes on with a model that has more elements or DOFs, displaced by `u`: what was added does no work
-    /// up to there.
+    /// Goes on from displacement `u`, under conditions or with elements and DOFs that may be others than before: what was
+    /// added does no work up to there. The state there is to be weighed and settled first.
     pub fn rebase(&mut self, u: &[f64]) {
-        self.displacement = u.to_vec();
-        self.external = vec![0.0; u.len()];
+        self.at.displacement = u.to_vec();
+        self.at.external = vec![0.0; u.len()];
     }
 
-    /// Records an accepted state of a stage.
+    /// Weighs an equilibrium, in which element e has the internal variables `state(e)`, against the last one settled.
     ///
     /// # Errors
     ///
     /// [`ModelError::Element`].
-    pub fn record(
+    pub fn weigh<'s>(
         &mut self,
         model: &Model,
         conditions: &Conditions,
-        lambda: f64,
-        u: &[f64],
-        state: &StateStore,
-    ) -> Result<(), ModelError> {
-        self.displacement.resize(u.len(), 0.0);
-        self.external.resize(u.len(), 0.0);
-        let before = &self.displacement;
+        (lambda, u): (f64, &[f64]),
+        state: impl Fn(usize) -> &'s [f64] + Sync,
+    ) -> Result<Change, ModelError> {
+        self.at.displacement.resize(u.len(), 0.0);
+        self.at.external.resize(u.len(), 0.0);
+        let before = &self.at.displacement;
         self.elements
+            .resize_with(model.elements().len(), Seen::default);
+        self.weighed
+            .resize_with(model.elements().len(), Seen::default);
+        self.weighed
             .par_iter_mut()
-            .take(model.elements().len())
+            .zip(&self.elements)
             .enumerate()
-            .try_for_each(|(e, last)| {
+            .try_for_each(|(e, (now, seen))| {
                 let (own, old) = (model.gather(e, u), model.gather(e, before));
-                last.advance(model, e, (&old, &own), state.committed(e))
+                now.follow(seen, model, e, (&old, &own), state(e))
                     .map_err(|source| model.locate(e, source))
             })?;
         let mut external = vec![0.0; u.len()];
         conditions.external(lambda, &mut external);
         let mut internal = vec![0.0; u.len()];
-        for (element, last) in model.elements().iter().zip(&self.elements) {
+        for (element, now) in model.elements().iter().zip(&self.weighed) {
             for (d, f) in model
                 .dofs()
                 .element_dofs(element.as_ref())
                 .iter()
-                .zip(&last.force)
+                .zip(&now.force)
             {
                 internal[*d as usize] += f;
             }
@@ -113,27 +139,41 @@ impl Ledger {
         for &d in conditions.prescribed().keys() {
             external[d] = internal[d];
         }
-        for d in 0..u.len() {
-            self.external_work +=
-                0.5 * (self.external[d] + external[d]) * (u[d] - self.displacement[d]);
+        let advanced: f64 = (0..u.len())
+            .map(|d| 0.5 * (self.at.external[d] + external[d]) * (u[d] - before[d]))
+            .sum();
+        self.next = Totals {
+            displacement: u.to_vec(),
+            external,
+            external_work: self.at.external_work + advanced,
+        };
+        let mut change = Change::default();
+        for (now, seen) in self.weighed.iter().zip(&self.elements) {
+            change.work += now.energy.work - seen.energy.work;
+            change.stored += now.energy.stored - seen.energy.stored;
+            change.turnover += now.energy.work.abs();
         }
-        self.external = external;
-        self.displacement.copy_from_slice(u);
-        Ok(())
+        Ok(change)
+    }
+
+    /// The state weighed last is accepted.
+    pub fn settle(&mut self) {
+        std::mem::swap(&mut self.elements, &mut self.weighed);
+        std::mem::swap(&mut self.at, &mut self.next);
     }
 
     /// Work of loads and reactions so far (N mm).
     pub const fn external_work(&self) -> f64 {
-        self.external_work
+        self.at.external_work
     }
 
-    /// Energies of every part.
-    pub fn parts(&self) -> Vec<PartEnergy> {
-        let mut sums = vec![PartEnergy::default(); self.parts];
-        for (&p, e) in self.part.iter().zip(&self.elements) {
+    /// Energies of `parts` parts, element e belonging to part `part[e]`.
+    pub fn parts(&self, part: &[usize], parts: usize) -> Vec<PartEnergy> {
+        let mut sums = vec![PartEnergy::default(); parts];
+        for (&p, e) in part.iter().zip(&self.elements) {
             if let Some(sum) = sums.get_mut(p) {
-                sum.work += e.work;
-                sum.stored += e.stored;
+                sum.work += e.energy.work;
+                sum.stored += e.energy.stored;
             }
         }
         sums
@@ -141,38 +181,41 @@ impl Ledger {
 
     /// Gap of the balance relative to the external work: 1 - sum of the internal works over it.
     pub fn gap(&self) -> f64 {
-        let internal: f64 = self.elements.iter().map(|e| e.work).sum();
-        if self.external_work == 0.0 {
+        let internal: f64 = self.elements.iter().map(|e| e.energy.work).sum();
+        if self.at.external_work == 0.0 {
             0.0
         } else {
-            1.0 - internal / self.external_work
+            1.0 - internal / self.at.external_work
         }
     }
 }
 
-impl Last {
-    fn advance(
+impl Seen {
+    fn follow(
         &mut self,
+        before: &Self,
         model: &Model,
         e: usize,
         (old, u): (&[f64], &[f64]),
         state: &[f64],
     ) -> Result<(), ElementError> {
         let element = &model.elements()[e];
-        let mut force = vec![0.0; u.len()];
+        self.force.clear();
+        self.force.resize(u.len(), 0.0);
         let mut trial = state.to_vec();
         let system = ElementSystem {
-            force: &mut force,
+            force: &mut self.force,
             stiffness: &mut [],
         };
         element.evaluate(u, state, &mut trial, &EvaluationContext::frozen(), system)?;
-        self.force.resize(u.len(), 0.0);
+        let mut work = before.energy.work;
         for i in 0..u.len() {
-            self.work += 0.5 * (self.force[i] + force[i]) * (u[i] - old[i]);
+            let last = before.force.get(i).copied().unwrap_or(0.0);
+            work += 0.5 * (last + self.force[i]) * (u[i] - old[i]);
         }
-        let half: f64 = force.iter().zip(u).map(|(f, u)| 0.5 * f * u).sum();
-        self.stored = element.free_energy(u, state).unwrap_or(half);
-        self.force = force;
+        let half: f64 = self.force.iter().zip(u).map(|(f, u)| 0.5 * f * u).sum();
+        let stored = element.free_energy(u, state).unwrap_or(half);
+        self.energy = PartEnergy { work, stored };
         Ok(())
     }
 }
@@ -184,14 +227,15 @@ impl Last {
 /// (sigma_n : eps_(n+1) - sigma_(n+1) : eps_n)/2; here sigma is the tensile part.
 #[derive(Debug, Clone, Default)]
 pub struct Cracking {
-    points: Vec<Seen>,
+    points: Vec<SeenPoint>,
     next: usize,
     dissipated: f64,
+    largest: f64,
 }
 
 /// A point at the last state.
 #[derive(Debug, Clone, Copy)]
-struct Seen {
+struct SeenPoint {
     strain: Vector6<f64>,
     /// Its tensile part once the point has cracked.
     stress: Vector6<f64>,
@@ -202,6 +246,7 @@ impl Cracking {
     /// Begins a state. Its points are then shown one by one, in the same order as those of the state before.
     pub const fn begin(&mut self) {
         self.next = 0;
+        self.largest = 0.0;
     }
 
     /// Takes a point of a solid.
@@ -213,7 +258,7 @@ impl Cracking {
         let stress = Vector6::from_column_slice(sample.stress);
         let Some(seen) = self.points.get_mut(self.next) else {
             self.next += 1;
-            self.points.push(Seen {
+            self.points.push(SeenPoint {
                 strain,
                 stress,
                 cracked: false,
@@ -226,12 +271,19 @@ impl Cracking {
             return;
         }
         if !seen.cracked {
-            (seen.stress, seen.cracked) = (tensile(&seen.stress), true);
+            (seen.stress, seen.cracked) = (tensile(&seen.stress).0, true);
         }
-        let stress = tensile(&stress);
+        let (stress, largest) = tensile(&stress);
+        self.largest = self.largest.max(largest);
         self.dissipated +=
             sample.volume * 0.5 * (seen.stress.dot(&strain) - stress.dot(&seen.strain));
         (seen.strain, seen.stress) = (strain, stress);
+    }
+
+    /// Largest principal tension (MPa) of a cracked point in the state shown last. No more than the tensile strength, unless
+    /// cracks lock: fixed axes from which the principal stress turns away (Rots 1988).
+    pub const fn largest_tension(&self) -> f64 {
+        self.largest
     }
 
     /// Energy dissipated so far (N mm).
@@ -240,14 +292,9 @@ impl Cracking {
     }
 }
 
-/// Tensile part of a stress: its positive principal values.
-fn tensile(stress: &Vector6<f64>) -> Vector6<f64> {
-    let tensor = stress_tensor(stress);
-    let eigen = tensor.symmetric_eigen();
-    let mut positive = Matrix3::zeros();
-    for k in 0..3 {
-        let axis = eigen.eigenvectors.column(k);
-        positive += eigen.eigenvalues[k].max(0.0) * axis * axis.transpose();
-    }
-    stress_voigt(&positive)
+/// Tensile part of a stress, its positive principal values, and the largest of them.
+fn tensile(stress: &Vector6<f64>) -> (Vector6<f64>, f64) {
+    let (values, axes) = principal(&stress_tensor(stress));
+    let positive = values.map(|s| s.max(0.0));
+    (stress_along(&axes, &positive), positive[0])
 }

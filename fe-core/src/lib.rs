@@ -41,6 +41,7 @@ pub mod model;
 pub mod output;
 pub mod point;
 pub mod points;
+pub mod principal;
 pub mod shape;
 pub mod skin;
 pub mod sparsity;

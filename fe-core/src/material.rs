@@ -215,6 +215,32 @@ pub trait Material<K: Kinematics>: Debug + Send + Sync {
         ctx: &PointContext,
     ) -> Result<Response<K>, MaterialError>;
 
+    /// [`Self::update`] of the points of an element, whose states are slices of equal length, one after the other. Each
+    /// response is shown to `take` with the number of its point. Laws override it to do together what can be done so; the
+    /// responses are the same to the last bit.
+    ///
+    /// # Errors
+    ///
+    /// Number of the first point that fails, and why.
+    fn update_many(
+        &self,
+        strains: &[K::Vector],
+        (committed, trial): (&[f64], &mut [f64]),
+        ctx: &PointContext,
+        take: &mut dyn FnMut(usize, &Response<K>),
+    ) -> Result<(), (usize, MaterialError)> {
+        let n = self.state_len();
+        for (p, strain) in strains.iter().enumerate() {
+            let own = p * n..(p + 1) * n;
+            // By reference: an operator is worth not copying.
+            match &self.update(strain, &committed[own.clone()], &mut trial[own], ctx) {
+                Ok(response) => take(p, response),
+                Err(error) => return Err((p, error.clone())),
+            }
+        }
+        Ok(())
+    }
+
     /// Whether the consistent tangent can be unsymmetric.
     fn unsymmetric_tangent(&self) -> bool {
         false

@@ -34,7 +34,8 @@ pub fn latch<K: Kinematics>(law: &dyn Material<K>, trial: &[f64], base: &mut [f6
     }
 }
 
-/// Sum over the points, given as volume (mm3) and strain, of the free energy (N mm).
+/// Sum over the points, given as volume (mm3) and strain, of the recoverable energy (N mm): the free energy, or for laws
+/// that state none what unloading along the secant gives back, 1/2 sigma : (eps - eps_p). `None` where a law fails.
 pub fn free_energy<K: Kinematics>(
     law: &dyn Material<K>,
     band_width: f64,
@@ -43,12 +44,38 @@ pub fn free_energy<K: Kinematics>(
 ) -> Option<f64> {
     let n = law.state_len();
     let ctx = context(band_width, &EvaluationContext::frozen());
+    let mut scratch = vec![0.0; n];
     let mut rest = state;
     points.try_fold(0.0, |sum, (volume, strain)| {
         let (own, tail) = rest.split_at(n);
         rest = tail;
-        Some(sum + volume * law.free_energy(&strain, own, &ctx)?)
+        let density = match law.free_energy(&strain, own, &ctx) {
+            Some(stated) => stated,
+            None => along_secant(law, &strain, (own, &mut scratch), &ctx)?,
+        };
+        Some(sum + volume * density)
     })
+}
+
+/// 1/2 sigma : (eps - eps_p).
+fn along_secant<K: Kinematics>(
+    law: &dyn Material<K>,
+    strain: &K::Vector,
+    (state, scratch): (&[f64], &mut [f64]),
+    ctx: &PointContext,
+) -> Option<f64> {
+    let stress = law.update(strain, state, scratch, ctx).ok()?.stress;
+    let plastic = law.report(strain, state).plastic_strain;
+    let parts = K::components(&stress).iter().zip(K::components(strain));
+    let whole: f64 = parts.map(|(s, e)| s * e).sum();
+    let solid = K::components(&stress).len() == plastic.len();
+    let lost: f64 = if solid {
+        let parts = K::components(&stress).iter().zip(&plastic);
+        parts.map(|(s, e)| s * e).sum()
+    } else {
+        0.0
+    };
+    Some(0.5 * (whole - lost))
 }
 
 /// Shows every point, given as position (mm), volume (mm3) and strain, with the stress of a committed state.

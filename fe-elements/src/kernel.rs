@@ -164,18 +164,32 @@ impl WithSimd for Stiffness<'_> {
     type Output = ();
 
     // Inlining is what compiles the body for the vector unit of the caller.
-    #[allow(clippy::inline_always)]
+    #[allow(clippy::inline_always, clippy::large_stack_arrays)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        #[allow(clippy::large_stack_arrays)]
         let mut db = [[[[0.0_f64; PAD]; 3]; 6]; CHUNK];
+        let mut sums: Blocks = [[[[0.0; PAD]; 3]; 3]; 20];
         let chunks = self.points.chunks(CHUNK).zip(self.tangents.chunks(CHUNK));
         for (points, tangents) in chunks {
             products(simd, points, tangents, &mut db);
-            accumulate(simd, points, &db, self.symmetric, self.out);
+            accumulate(simd, points, &db, self.symmetric, &mut sums);
+        }
+        for (a, rows) in sums.iter().enumerate() {
+            let first = if self.symmetric { a } else { 0 };
+            for (k, row) in rows.iter().enumerate() {
+                let out = &mut self.out[(3 * a + k) * 60..(3 * a + k + 1) * 60];
+                for b in first..20 {
+                    for l in 0..3 {
+                        out[3 * b + l] += row[l][b];
+                    }
+                }
+            }
         }
     }
 }
+
+/// Sums of 3 x 3 blocks of the stiffness: node and direction of the row, direction and node of the column.
+type Blocks = [[[[f64; PAD]; 3]; 3]; 20];
 
 /// w D B of one point, by Voigt row and displacement direction.
 type Product = [[[f64; PAD]; 3]; 6];
@@ -207,7 +221,7 @@ fn products<S: Simd>(simd: S, points: &[Point], tangents: &[Matrix6<f64>], db: &
     }
 }
 
-/// Adds B^T (w D B) of the points.
+/// Adds B^T (w D B) of the points, block by block.
 #[allow(clippy::inline_always)]
 #[inline(always)]
 fn accumulate<S: Simd>(
@@ -215,7 +229,7 @@ fn accumulate<S: Simd>(
     points: &[Point],
     db: &[Product],
     symmetric: bool,
-    out: &mut [f64],
+    out: &mut Blocks,
 ) {
     let lanes = S::F64_LANES;
     for a in 0..20 {
@@ -241,15 +255,9 @@ fn accumulate<S: Simd>(
                 }
             }
             for k in 0..3 {
-                let row = &mut out[(3 * a + k) * 60..(3 * a + k + 1) * 60];
                 for l in 0..3 {
-                    let values: &[f64] = pulp::bytemuck::cast_slice(&acc[k][l..=l]);
-                    for (lane, value) in values.iter().enumerate() {
-                        let b = v * lanes + lane;
-                        if b < 20 {
-                            row[3 * b + l] += value;
-                        }
-                    }
+                    let sum = &mut S::as_mut_simd_f64s(&mut out[a][k][l]).0[v];
+                    *sum = simd.add_f64s(*sum, acc[k][l]);
                 }
             }
         }

@@ -135,6 +135,10 @@ pub const MAX_FLAGGED_RESIDUAL: f64 = 0.03;
 /// Relative gap between work-conjugate load and load beyond which no peak is trusted.
 pub const MAX_LOAD_GAP: f64 = 0.03;
 
+/// Largest principal tension of cracked concrete up to the peak, over the tensile strength, beyond which the peak is trusted
+/// within limits only: its cracks lock.
+pub const LOCKING: f64 = 1.2;
+
 /// Change of the peak under halving of the steps beyond which it is trusted within limits only.
 pub const MAX_STEP_CHANGE: f64 = 0.03;
 /// The same beyond which it is not trusted.
@@ -307,6 +311,18 @@ impl Verdict {
         );
         self.reason.push_str(&reason);
     }
+
+    /// Lowers the trust to limited where cracked concrete has carried more than [`LOCKING`] times its tensile strength,
+    /// `ratio` times, on the way to the peak. The reason is added to.
+    pub fn limit_by_locking(&mut self, ratio: f64) {
+        if ratio > LOCKING {
+            self.trust = self.trust.max(Trust::Limited);
+            let reason = format!(
+                "; cracked concrete carries up to {ratio:.2} times its tensile strength: cracks lock"
+            );
+            self.reason.push_str(&reason);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -433,6 +449,17 @@ mod tests {
         let mut verdict = Verdict::of(&jumps, &Capacity::of(&jumps).unwrap());
         verdict.limit_by_step(0.0);
         assert_eq!(verdict.trust, Trust::Limited);
+    }
+
+    #[test]
+    fn stress_locking_limits_trust() {
+        for (ratio, expected) in [(1.0, Trust::High), (1.46, Trust::Limited)] {
+            let path = peaked();
+            let mut verdict = Verdict::of(&path, &Capacity::of(&path).unwrap());
+            verdict.limit_by_locking(ratio);
+            assert_eq!(verdict.trust, expected, "{ratio}");
+            assert_eq!(verdict.reason.contains("1.46"), ratio > LOCKING);
+        }
     }
 
     #[test]

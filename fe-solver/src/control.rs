@@ -1,5 +1,10 @@
 //! Step control: adaptive length, shortening on failure, acceptance, recording.
+//!
+//! A step that ends in equilibrium but [creates energy](Change::creates_energy) is refused like one without convergence.
 
+use fe_core::energy::Change;
+
+use crate::critical::Signs;
 use crate::driver::{Attempt, Driver, Request};
 use crate::error::SolverError;
 use crate::journal::Entry;
@@ -11,7 +16,7 @@ use crate::stage::Stage;
 pub enum OnFailure {
     /// Stop with [`SolverError::NoConvergence`].
     Stop,
-    /// Accept the best iterate and flag the step; stop with [`SolverError::NoConvergence`] after
+    /// Accept the best iterate, or one that creates energy, and flag the step; stop with [`SolverError::NoConvergence`] after
     /// [`MAX_FLAGGED`] such steps in a row.
     Flag,
 }
@@ -149,27 +154,45 @@ impl StepControl {
                 length: this,
                 last_resort: !can_shorten,
             };
+            let may_flag =
+                !can_shorten && self.on_failure == OnFailure::Flag && flagged < MAX_FLAGGED;
             let attempt = self.attempt(stage, driver, (recorder, &mut heard), plan);
             match attempt {
-                Ok(attempt)
-                    if attempt.converged
-                        || (!can_shorten
-                            && self.on_failure == OnFailure::Flag
-                            && flagged < MAX_FLAGGED) =>
-                {
+                Ok(mut attempt) if attempt.converged || may_flag => {
+                    let counters = *stage.counters();
+                    let (signs, change) = Self::measure(stage, &attempt)?;
+                    let creates_energy = driver.balances() && change.creates_energy();
+                    if creates_energy && can_shorten {
+                        recorder.note(step, &creation(&change))?;
+                        heard.notes.push(creation(&change));
+                        stage.roll_back();
+                        stage.counters_mut().cutbacks += 1;
+                        length = shorter;
+                        continue;
+                    }
+                    if creates_energy && !may_flag {
+                        stage.roll_back();
+                        return Err(SolverError::CreatesEnergy {
+                            lambda: stage.lambda(),
+                            step: this,
+                            dissipated: change.dissipated(),
+                            work: change.work,
+                        });
+                    }
+                    attempt.converged &= !creates_energy;
                     let entry = Entry {
                         length,
                         taken: this,
                         attempts,
                         attempt,
                         base: stage.state().base_changes(),
-                        counters: *stage.counters(),
+                        counters,
                         load: None,
                         iterations: std::mem::take(&mut heard.iterations),
                         memory: driver.memory(),
                         notes: std::mem::take(&mut heard.notes),
                     };
-                    let done = Self::accept(stage, recorder, step, entry)?;
+                    let done = Self::accept(stage, recorder, step, (entry, signs))?;
                     flagged = done.flagged(flagged);
                     if let Continue::Stop(reason) = done.verdict {
                         return Ok(reason);
@@ -257,17 +280,22 @@ impl StepControl {
         }
     }
 
-    /// Measures the accepted state, commits it and records it; keeps it, unless it is recalled and
-    /// leads where it led.
+    /// Signs of the tangent where an attempt ends and the energies of the step.
+    fn measure(stage: &mut Stage<'_>, attempt: &Attempt) -> Result<(Signs, Change), SolverError> {
+        let (u, lambda) = (&attempt.displacement, attempt.lambda);
+        let relaxation = attempt.lag.map_or(1.0, |lag| lag.relaxation);
+        let signs = stage.stability(u, lambda, relaxation)?;
+        Ok((signs, stage.weigh(u, lambda)?))
+    }
+
+    /// Commits a measured state and records it; keeps it, unless it is recalled and leads where it led.
     fn accept(
         stage: &mut Stage<'_>,
         recorder: &mut dyn Recorder,
         step: usize,
-        mut entry: Entry,
+        (mut entry, signs): (Entry, Signs),
     ) -> Result<Done, SolverError> {
-        let (u, lambda) = (&entry.attempt.displacement, entry.attempt.lambda);
-        let relaxation = entry.attempt.lag.map_or(1.0, |lag| lag.relaxation);
-        let signs = stage.stability(u, lambda, relaxation)?;
+        let lambda = entry.attempt.lambda;
         let critical = stage.signs().until(signs);
         if let Some(means) = &entry.attempt.means {
             stage.read_off(&means.internal);
@@ -341,8 +369,18 @@ impl StepControl {
             recorder.note(step, note)?;
         }
         *stage.counters_mut() = entry.counters;
-        Self::accept(stage, recorder, step, entry)
+        let (signs, _) = Self::measure(stage, &entry.attempt)?;
+        Self::accept(stage, recorder, step, (entry, signs))
     }
+}
+
+/// What is said of a step that creates energy.
+fn creation(change: &Change) -> String {
+    format!(
+        "the step is repeated shorter: it would dissipate {:.3e} N mm while {:.3e} N mm of work are done",
+        change.dissipated(),
+        change.work
+    )
 }
 
 /// What recorders have been told since the last accepted step.

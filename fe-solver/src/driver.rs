@@ -66,6 +66,12 @@ pub trait Driver: Debug {
     /// Name, for output.
     fn name(&self) -> &'static str;
 
+    /// Whether its steps end in equilibrium of the laws as they are. Elsewhere the work of the internal forces is not that of
+    /// the loads, and the energies of a step say nothing.
+    fn balances(&self) -> bool {
+        true
+    }
+
     /// Tries a step.
     ///
     /// # Errors

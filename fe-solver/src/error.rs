@@ -51,6 +51,21 @@ pub enum SolverError {
         /// Node and DOF of the largest residual.
         worst: String,
     },
+    /// A step, even the shortest, creates energy.
+    #[error(
+        "the shortest step {step:.3e} from load factor {lambda:.6} creates energy: it dissipates {dissipated:.3e} N mm \
+         while {work:.3e} N mm of work are done on the model; try a smaller shortest step or another driver"
+    )]
+    CreatesEnergy {
+        /// Load factor of the last accepted step.
+        lambda: f64,
+        /// Step tried last.
+        step: f64,
+        /// Dissipation of the step (N mm), negative.
+        dissipated: f64,
+        /// Work of the internal forces (N mm).
+        work: f64,
+    },
     /// A recorder could not write.
     #[error("cannot write results: {0}")]
     Output(#[from] std::io::Error),

@@ -130,6 +130,10 @@ impl Driver for Explicit {
         "explicit quasi-static"
     }
 
+    fn balances(&self) -> bool {
+        false
+    }
+
     fn attempt(
         &mut self,
         stage: &mut Stage<'_>,

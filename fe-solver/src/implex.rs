@@ -25,6 +25,10 @@ impl Driver for Implex {
         "IMPL-EX"
     }
 
+    fn balances(&self) -> bool {
+        false
+    }
+
     fn attempt(
         &mut self,
         stage: &mut Stage<'_>,

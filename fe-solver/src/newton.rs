@@ -130,9 +130,10 @@ impl Driver for NewtonRaphson {
             let mut correction = residual.clone();
             stage.solve(&mut correction)?;
             gradient.fill(0.0);
-            let border = self
-                .constraint
-                .linearise(&du, lambda - stage.lambda(), &mut gradient);
+            let advance = lambda - stage.lambda();
+            let directions = [correction.as_slice(), reference.as_slice()];
+            self.constraint.observe(stage, (&du, advance), directions)?;
+            let border = self.constraint.linearise(&du, advance, &mut gradient);
             let dlambda = -(border.value + dot(&gradient, &correction))
                 / (border.slope + dot(&gradient, &reference));
             for (c, q) in correction.iter_mut().zip(&reference) {

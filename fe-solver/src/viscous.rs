@@ -64,6 +64,10 @@ impl Driver for Viscous {
         "viscous Newton-Raphson"
     }
 
+    fn balances(&self) -> bool {
+        false
+    }
+
     fn attempt(
         &mut self,
         stage: &mut Stage<'_>,

@@ -123,7 +123,7 @@ impl Observer for Sober {
         Ok(Continue::Yes)
     }
 
-    fn bonded(&mut self, _: &Beam, _: &[f64]) -> io::Result<()> {
+    fn bonded(&mut self, _: &Beam) -> io::Result<()> {
         Ok(())
     }
 }

@@ -54,7 +54,11 @@ fn zeros(model: &Model, conditions: &Conditions) -> usize {
 /// EL-02: 6 zeros with 27 points, 12 with 8.
 #[test]
 fn one_hexahedron() {
-    for (rule, expected) in [(HexRule::Full, 6), (HexRule::Reduced, 12)] {
+    for (rule, expected) in [
+        (HexRule::Full, 6),
+        (HexRule::Irons, 6),
+        (HexRule::Reduced, 12),
+    ] {
         let model = cubes([1, 1, 1], rule);
         assert_eq!(zeros(&model, &Conditions::new(&model)), expected);
     }
@@ -112,7 +116,11 @@ fn shells_have_six_rigid_body_modes() {
 #[test]
 fn columns_keep_their_mechanisms() {
     for n in [2, 4, 8] {
-        for (rule, free, held) in [(HexRule::Reduced, 7 + n, n), (HexRule::Full, 6, 0)] {
+        for (rule, free, held) in [
+            (HexRule::Reduced, 7 + n, n),
+            (HexRule::Irons, 6, 0),
+            (HexRule::Full, 6, 0),
+        ] {
             let model = cubes([n, 1, 1], rule);
             let mut conditions = clamped(&model);
             assert_eq!(zeros(&model, &Conditions::new(&model)), free);

@@ -49,6 +49,22 @@ pub fn cube(n: usize) -> Vec<([f64; 3], f64)> {
         .collect()
 }
 
+/// The 14-point rule of the cube by Irons (1971), exact for polynomials of degree 5 like 3 x 3 x 3 Gauss points:
+/// six points at (+-sqrt(19/30), 0, 0) of weight 320/361 and eight at (+-1, +-1, +-1) sqrt(19/33) of weight 121/361.
+pub fn irons() -> Vec<([f64; 3], f64)> {
+    let (inner, outer) = ((19.0_f64 / 30.0).sqrt(), (19.0_f64 / 33.0).sqrt());
+    let corners = cube(2);
+    let corners = corners
+        .iter()
+        .map(|(x, _)| (x.map(|c| outer.copysign(c)), 121.0 / 361.0));
+    let faces = (0..6).map(|i| {
+        let mut x = [0.0; 3];
+        x[i / 2] = if i % 2 == 0 { -inner } else { inner };
+        (x, 320.0 / 361.0)
+    });
+    corners.chain(faces).collect()
+}
+
 #[cfg(test)]
 mod tests {
     //! Protects the exactness of the rules.
@@ -76,5 +92,30 @@ mod tests {
             .sum();
         assert!((cubic - 32.0 / 3.0).abs() < 1e-14);
         assert!((cube(3).iter().map(|p| p.1).sum::<f64>() - 8.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn fourteen_points_integrate_polynomials_of_degree_5() {
+        let rule = irons();
+        assert_eq!(rule.len(), 14);
+        let line = |n: i32| {
+            if n % 2 == 0 {
+                2.0 / f64::from(n + 1)
+            } else {
+                0.0
+            }
+        };
+        for (i, j, k) in (0..216).map(|n| (n / 36, n / 6 % 6, n % 6)) {
+            if i + j + k <= 5 {
+                let terms = rule.iter();
+                let sum: f64 = terms
+                    .map(|(x, w)| w * x[0].powi(i) * x[1].powi(j) * x[2].powi(k))
+                    .sum();
+                assert!(
+                    (sum - line(i) * line(j) * line(k)).abs() < 1e-14,
+                    "{i} {j} {k}"
+                );
+            }
+        }
     }
 }

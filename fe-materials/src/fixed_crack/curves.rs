@@ -77,22 +77,13 @@ impl Tension {
         }
     }
 
-    /// Secant modulus of the envelope at a history strain k >= 0.
-    pub(super) fn secant(&self, k: f64) -> f64 {
+    /// Secant modulus of the envelope at a history strain k >= 0 and its derivative with respect to k.
+    pub(super) fn secant(&self, k: f64) -> (f64, f64) {
         if k <= self.cracking {
-            self.young
-        } else {
-            self.softening(k).0 / k
-        }
-    }
-
-    /// Derivative of [`Self::secant`] with respect to k.
-    pub(super) fn secant_slope(&self, k: f64) -> f64 {
-        if k <= self.cracking {
-            return 0.0;
+            return (self.young, 0.0);
         }
         let (stress, slope) = self.softening(k);
-        (slope - stress / k) / k
+        (stress / k, (slope - stress / k) / k)
     }
 }
 
@@ -153,22 +144,20 @@ impl Compression {
         }
     }
 
-    /// Secant modulus of the envelope at a history strain k >= 0.
-    pub(super) fn secant(&self, k: f64) -> f64 {
+    /// Secant modulus of the envelope at a history strain k >= 0 and its derivative with respect to k.
+    pub(super) fn secant(&self, k: f64) -> (f64, f64) {
         if k <= 0.0 {
-            self.young
-        } else {
-            self.envelope(k).0 / k
-        }
-    }
-
-    /// Derivative of [`Self::secant`] with respect to k.
-    pub(super) fn secant_slope(&self, k: f64) -> f64 {
-        if k <= 1e-12 {
-            return 0.0;
+            return (self.young, 0.0);
         }
         let (stress, slope) = self.envelope(k);
-        (slope - stress / k) / k
+        let secant = stress / k;
+        // The difference of two nearly equal slopes is lost to rounding near the origin.
+        let slope = if k <= 1e-12 {
+            0.0
+        } else {
+            (slope - secant) / k
+        };
+        (secant, slope)
     }
 
     /// Consumed share of the descending branch.

@@ -1,4 +1,4 @@
-//! Fixed orthogonal smeared cracks with history-based shear transfer: the default law of the beams.
+//! Fixed orthogonal smeared cracks with irreversible shear transfer: the default law of the beams.
 //!
 //! **Uncracked**, the law is isotropic. With the equivalent uniaxial strains
 //! e~_i = sum_j Q_ij e_j, Q = C(E, nu)/E, of the principal strains,
@@ -8,27 +8,30 @@
 //! Ec being the secant of the compression envelope at kc_i, the largest compressive e~_i ever.
 //!
 //! **Onset.** A crack opens when sigma_1 >= ft, or when the Ottosen surface is reached with
-//! sigma_1 >= ft/2 (CEB Bulletin 156). The principal axes then freeze, and Poisson's ratio is zero.
+//! sigma_1 >= ft/2 (CEB Bulletin 156). Its normal n, the principal axis, then freezes, and Poisson's ratio is zero. The
+//! axes s and t in its plane stay principal there until a second crack opens across one of them, at a strain of ft/E.
 //!
-//! **Cracked**, in the frozen axes, with the histories kt_i = max e_i and kc_i = max(-e_i),
+//! **Cracked**, in these axes, with the histories kt_i = max e_i and kc_i = max(-e_i),
 //!
 //! sigma_i = Et(kt_i) e_i for e_i >= 0,  beta_i Ec(kc_i) e_i for e_i < 0,
-//! tau_ij = b_ij G0 gamma_ij,  b_ij = max(b_min, min over the two axes of min(Et(kt), Ec(kc))/E),
+//! tau = b G0 gamma,  b = max(b_min, min over the axes of Et(kt)/E and Ec(kc)/E),
 //!
-//! or more where aggregate interlocks, see [`ShearTransfer`]. beta_i <= 1 is the
-//! [compression softening](CompressionSoftening) by the cracks across axis i.
+//! of all axes for the shear across the first crack (components ns and nt), of s and t for the shear in its plane (st);
+//! or more where aggregate interlocks, see [`ShearTransfer`], which limits the stress too. beta_i <= 1 is the
+//! [compression softening](CompressionSoftening) by the cracks across axis i. While s and t turn, one history kc serves both.
 //!
-//! All factors follow from the history only and never recover when a crack closes: every term of the free energy
-//! psi = 1/2 sum Esec_i e_i^2 + sum int tau_ij dgamma_ij falls with growing history at fixed strain, so
-//! the cracked law never creates energy. Taking b from the current secant instead would: when a crack
-//! closes the factor jumps back to one with a large shear strain standing.
+//! The share of the elastic shear that is carried is a history variable too and never grows. So every term of the free
+//! energy psi = 1/2 sum Esec_i e_i^2 + 1/2 sum b G0 gamma^2 falls with growing history at fixed strain, and the cracked law
+//! never creates energy. Taking b from the current secant instead would: when a crack closes the factor jumps back to one
+//! with a large shear strain standing.
 //!
-//! The growth of kt and kc in a step is scaled by the relaxation a of the context (backward Euler of
+//! The growth of the histories in a step is scaled by the relaxation a of the context (backward Euler of
 //! k' = <e - k>/tau, a = dt/(tau + dt)).
 
 mod compression_softening;
 mod cracked;
 mod curves;
+mod shear;
 mod shear_transfer;
 mod uncracked;
 
@@ -39,7 +42,8 @@ use fe_core::kinematics::Solid;
 use fe_core::material::{
     Material, MaterialError, Operator, PointContext, PointReport, Response, StateVar,
 };
-use fe_core::voigt::strain_into;
+use fe_core::principal::{Principal, principal, principal_of_many};
+use fe_core::voigt::{strain_into, strain_tensor};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 pub use compression_softening::CompressionSoftening;
@@ -48,6 +52,9 @@ use curves::{Compression, Tension};
 pub use shear_transfer::ShearTransfer;
 
 const NAME: &str = "fixed crack";
+
+/// Points whose principal strains are found together: those of a fully integrated hexahedron.
+const TOGETHER: usize = 27;
 
 /// Smallest modulus of the secant operator, relative to E: keeps the operator positive definite where the
 /// envelope has dropped to zero. It does not enter the stress.
@@ -172,20 +179,23 @@ pub struct FixedCrack {
 }
 
 /// Internal variables; see [`State`].
-const STATE_VARS: [StateVar; 6] = [
-    StateVar::scalar("cracked", "-"),
+const STATE_VARS: [StateVar; 7] = [
+    StateVar::scalar("cracks", "-"),
     StateVar::vector("crack_axes", "-", 9),
     StateVar::vector("kappa_t", "-", 3),
     StateVar::vector("kappa_c", "-", 3),
     StateVar::scalar("onset_stress", "MPa"),
     StateVar::scalar("crushing", "-"),
+    StateVar::vector("shear_shares", "-", 2),
 ];
 
 /// Typed view of the internal variables.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct State {
     cracked: bool,
-    /// Columns are the frozen axes n, s, t.
+    /// Whether a second crack has opened, which fixes all axes.
+    second: bool,
+    /// Columns are the axes n, s, t.
     axes: Matrix3<f64>,
     /// Largest tensile strain per axis.
     kt: [f64; 3],
@@ -195,31 +205,73 @@ struct State {
     onset: f64,
     /// Largest consumed share of the descending branch in compression.
     crushing: f64,
+    /// Share of the elastic shear that is carried across the first crack and in its plane.
+    shares: [f64; 2],
 }
 
 impl State {
+    /// Whether the point of a state has cracked.
+    fn is_cracked(s: &[f64]) -> bool {
+        s[0] > 0.5
+    }
+
     fn read(s: &[f64]) -> Self {
         Self {
-            cracked: s[0] > 0.5,
+            cracked: Self::is_cracked(s),
+            second: s[0] > 1.5,
             axes: Matrix3::from_column_slice(&s[1..10]),
             kt: [s[10], s[11], s[12]],
             kc: [s[13], s[14], s[15]],
             onset: s[16],
             crushing: s[17],
+            shares: [s[18], s[19]],
         }
     }
 
     fn write(&self, s: &mut [f64]) {
-        s[0] = if self.cracked { 1.0 } else { 0.0 };
+        s[0] = f64::from(u8::from(self.cracked) + u8::from(self.second));
         s[1..10].copy_from_slice(self.axes.as_slice());
         s[10..13].copy_from_slice(&self.kt);
         s[13..16].copy_from_slice(&self.kc);
         s[16] = self.onset;
         s[17] = self.crushing;
+        s[18..20].copy_from_slice(&self.shares);
     }
 }
 
 impl FixedCrack {
+    /// Response of a point, with its principal strains if they are known.
+    fn respond(
+        &self,
+        strain: &Vector6<f64>,
+        (committed, trial): (&[f64], &mut [f64]),
+        ctx: &PointContext,
+        known: Option<&Principal>,
+    ) -> Result<Response<Solid>, MaterialError> {
+        if let Some(component) = strain.iter().position(|e| !e.is_finite()) {
+            return Err(MaterialError::NotFinite {
+                law: NAME,
+                component,
+            });
+        }
+        let mut state = State::read(committed);
+        let mut response = Response {
+            stress: Vector6::zeros(),
+            tangent: Matrix6::zeros(),
+        };
+        let onset = !state.cracked;
+        let intact = onset && {
+            let found = known.copied();
+            let found = found.unwrap_or_else(|| principal(&strain_tensor(strain)));
+            self.uncracked(found, &mut state, ctx, &mut response)?
+        };
+        if !intact {
+            self.cracked(strain, &mut state, ctx, onset, &mut response)?;
+        }
+        state.write(trial);
+        Ok(response)
+    }
+
     /// A law with Rankine onset and, where `onset` is given, Ottosen onset.
     ///
     /// # Errors
@@ -282,23 +334,41 @@ impl Material<Solid> for FixedCrack {
         trial: &mut [f64],
         ctx: &PointContext,
     ) -> Result<Response<Solid>, MaterialError> {
-        if let Some(component) = strain.iter().position(|e| !e.is_finite()) {
-            return Err(MaterialError::NotFinite {
-                law: NAME,
-                component,
-            });
+        self.respond(strain, (committed, trial), ctx, None)
+    }
+
+    /// Principal strains of the uncracked points are found together.
+    fn update_many(
+        &self,
+        strains: &[Vector6<f64>],
+        (committed, trial): (&[f64], &mut [f64]),
+        ctx: &PointContext,
+        take: &mut dyn FnMut(usize, &Response<Solid>),
+    ) -> Result<(), (usize, MaterialError)> {
+        let n = self.state_len();
+        let state = |p: usize| p * n..(p + 1) * n;
+        for start in (0..strains.len()).step_by(TOGETHER) {
+            let end = strains.len().min(start + TOGETHER);
+            let uncracked = |p: &usize| !State::is_cracked(&committed[state(*p)]);
+            let mut tensors = [Vector6::zeros(); TOGETHER];
+            let mut found = [(Vector3::zeros(), Matrix3::zeros()); TOGETHER];
+            let mut count = 0;
+            for p in (start..end).filter(uncracked) {
+                tensors[count] = tensor_components(&strains[p]);
+                count += 1;
+            }
+            principal_of_many(&tensors[..count], &mut found);
+            let mut next = found.iter();
+            for p in start..end {
+                let axes = if uncracked(&p) { next.next() } else { None };
+                let states = (&committed[state(p)], &mut trial[state(p)]);
+                match &self.respond(&strains[p], states, ctx, axes) {
+                    Ok(response) => take(p, response),
+                    Err(error) => return Err((p, error.clone())),
+                }
+            }
         }
-        let mut state = State::read(committed);
-        let mut response = Response {
-            stress: Vector6::zeros(),
-            tangent: Matrix6::zeros(),
-        };
-        let onset = !state.cracked;
-        if !(onset && self.uncracked(strain, &mut state, ctx, &mut response)?) {
-            self.cracked(strain, &mut state, ctx, onset, &mut response)?;
-        }
-        state.write(trial);
-        Ok(response)
+        Ok(())
     }
 
     fn admit(&self, ctx: &PointContext) -> Result<(), MaterialError> {
@@ -314,12 +384,15 @@ impl Material<Solid> for FixedCrack {
     fn latch(&self, trial: &[f64], base: &mut [f64]) {
         let (found, mut kept) = (State::read(trial), State::read(base));
         if found.cracked && !kept.cracked {
-            kept.cracked = true;
-            kept.axes = found.axes;
             kept.onset = found.onset;
+            kept.shares = [1.0; 2];
             kept.kt = self.strains_at_onset(found.onset);
-            kept.write(base);
+        } else if found.second == kept.second {
+            return;
         }
+        (kept.cracked, kept.second) = (found.cracked, found.second);
+        kept.axes = found.axes;
+        kept.write(base);
     }
 
     fn free_energy(&self, strain: &Vector6<f64>, state: &[f64], ctx: &PointContext) -> Option<f64> {
@@ -350,6 +423,11 @@ impl Material<Solid> for FixedCrack {
             ..PointReport::default()
         }
     }
+}
+
+/// Tensor components of a strain in Voigt order.
+fn tensor_components(e: &Vector6<f64>) -> Vector6<f64> {
+    Vector6::new(e[0], e[1], e[2], 0.5 * e[3], 0.5 * e[4], 0.5 * e[5])
 }
 
 /// Whether the operator is the secant one.

@@ -6,21 +6,25 @@ use fe_core::material::MaterialError;
 /// What carries shear across cracks beside the bridges that tension softening counts.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Deserialize)]
 pub enum ShearTransfer {
-    /// Nothing: tau = b G0 gamma, b = max(b_min, min over the two axes of min(Et(kt), Ec(kc))/E), damage-based
-    /// retention as in DIANA, made irreversible.
+    /// Nothing: tau = b G0 gamma, b = max(b_min, min over the axes of Et(kt)/E and Ec(kc)/E), damage-based retention as in
+    /// DIANA, made irreversible; without a limit on the stress.
     Damage,
-    /// The larger of that and the interlock of aggregate,
+    /// The larger of that and the interlock of aggregate, up to the strength of the faces,
     ///
-    /// |tau| = max(b G0 |gamma|, min(r G0 |gamma|, v)),
+    /// |tau| = min(max(b, r) G0 |gamma|, v),
     ///
-    /// at the opening w = h max(kt - ft/E) of the pair of axes. The faces slip by s = tau/k and the concrete between
+    /// at the widest opening w = h max(kt - ft/E). The faces slip by s = tau/k and the concrete between
     /// them shears, r = k h/(k h + G0), with the stiffness of Walraven (1981)
     ///
     /// k = 1.8 w^-0.80 + (0.234 w^-0.707 - 0.20) f_cc (MPa/mm), f_cc = 1.2 fcm (cubes),
     ///
-    /// never more than the pair's min Ec(kc)/E; the strength is that of Vecchio and Collins (1986)
+    /// never more than the least Ec(kc)/E; the strength is that of Vecchio and Collins (1986), fitted to the tests of
+    /// Walraven,
     ///
-    /// v = 0.18 sqrt(fcm)/(0.31 + 24 w/(a + 16)) (MPa), a the largest aggregate (mm).
+    /// v = 0.18 v_m + 1.64 p - 0.82 p^2/v_m,  v_m = sqrt(fcm)/(0.31 + 24 w/(a + 16)) (MPa),
+    ///
+    /// p being the pressure across the crack of that opening, up to v_m, and a the largest aggregate (mm). What has slipped
+    /// unloads to the origin: the share tau/(G0 gamma) never grows again.
     Interlock {
         /// Largest aggregate a (mm).
         aggregate_mm: f64,
@@ -30,13 +34,43 @@ pub enum ShearTransfer {
 /// Cube over cylinder strength (Eurocode 2, table 3.1: 1.2 to 1.25).
 const CUBE: f64 = 1.2;
 
-/// Interlock at one opening, with derivatives with respect to the opening.
+/// Interlock at one opening.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Interlock {
     /// Stiffness factor r (-) and dr/dw (1/mm).
     pub factor: (f64, f64),
-    /// Strength v (MPa) and dv/dw (MPa/mm).
-    pub strength: (f64, f64),
+    /// v_m (MPa) and dv_m/dw (MPa/mm).
+    full: (f64, f64),
+}
+
+/// Strength of the faces of a crack.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Strength {
+    /// v (MPa).
+    pub value: f64,
+    /// dv/dw (MPa/mm).
+    pub by_opening: f64,
+    /// dv/dp (-).
+    pub by_pressure: f64,
+}
+
+impl Interlock {
+    /// v = 0.18 v_m + 1.64 p - 0.82 p^2/v_m, where the pressure p (MPa) across the crack counts from 0 to v_m.
+    pub(super) fn strength(&self, pressure: f64) -> Strength {
+        let (full, slope) = self.full;
+        let p = pressure.clamp(0.0, full);
+        let held = p > 0.0 && pressure < full;
+        let by_full = if pressure < full {
+            0.18 + 0.82 * (p / full).powi(2)
+        } else {
+            1.0
+        };
+        Strength {
+            value: 0.18 * full + 1.64 * p - 0.82 * p * p / full,
+            by_opening: by_full * slope,
+            by_pressure: if held { 1.64 * (1.0 - p / full) } else { 0.0 },
+        }
+    }
 }
 
 impl ShearTransfer {
@@ -77,25 +111,9 @@ impl ShearTransfer {
             (0.0, 0.0)
         };
         let growth = 24.0 / (aggregate_mm + 16.0);
-        let strength = 0.18 * p.fcm_mpa.sqrt() / (0.31 + growth * w);
-        let strength = (strength, -strength * growth / (0.31 + growth * w));
-        Some(Interlock { factor, strength })
+        let bottom = 0.31 + growth * w;
+        let full = p.fcm_mpa.sqrt() / bottom;
+        let full = (full, -full * growth / bottom);
+        Some(Interlock { factor, full })
     }
-}
-
-/// Free energy (MPa) of |tau| = max(b g, min(r g, v)), g = G0 |gamma|, at g.
-pub(super) fn energy(b: f64, interlock: Option<(f64, f64)>, shear_modulus: f64, g: f64) -> f64 {
-    let twice = match interlock {
-        Some((r, v)) if r > b => {
-            let (first, last) = (v / r, v / b);
-            if g <= first {
-                r * g * g
-            } else {
-                let flat = v * (2.0 * g.min(last) - first);
-                flat + b * (g * g - last * last).max(0.0)
-            }
-        }
-        _ => b * g * g,
-    };
-    0.5 * twice / shear_modulus
 }

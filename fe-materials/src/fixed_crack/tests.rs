@@ -136,6 +136,60 @@ fn interlock_follows_its_stiffness_up_to_its_strength() {
     assert!(without.stress(sheared(2e-2))[3] < 0.3 * strength);
 }
 
+/// The faces of a crack that has hardly opened, w = 1e-4 mm, carry no more than 0.18 sqrt(fcm)/(0.31 + 24 w/(a + 16)) in
+/// any direction, though they are bridged; without the limit the shear would be 30 MPa.
+#[test]
+fn a_narrow_crack_carries_no_more_shear_than_its_faces() {
+    let p = parameters();
+    let opening = 1e-4;
+    let e = opening / WIDTH + p.ft_mpa / p.young_mpa;
+    let strength = 0.18 * p.fcm_mpa.sqrt() / (0.31 + 24.0 * opening / 35.0);
+    let mut point = Point::new(law(0.2));
+    point.stress(axial(e));
+    let s = point.stress(Vector6::new(e, 0.0, 0.0, 2e-3, 0.0, -1.5e-3));
+    assert!((s[3].hypot(s[5]) - strength).abs() < 1e-9, "{s:?}");
+    assert!((s[3] / s[5] + 2.0 / 1.5).abs() < 1e-9);
+}
+
+/// Vecchio and Collins (1986): pressure p across a crack adds 1.64 p - 0.82 p^2/v_m to the strength of its faces. What has
+/// slipped under less pressure is not regained under more.
+#[test]
+fn pressure_holds_the_faces_of_a_crack() {
+    let p = parameters();
+    let opening = 0.3;
+    let e = opening / WIDTH + p.ft_mpa / p.young_mpa;
+    let full = p.fcm_mpa.sqrt() / (0.31 + 24.0 * opening / 35.0);
+    let mut point = Point::new(law(0.2));
+    point.stress(axial(e));
+    let pressed = Vector6::new(-1.5e-4, 0.0, 0.0, 2e-2, 0.0, 0.0);
+    let s = point.stress(pressed);
+    let strength = 0.18 * full - 1.64 * s[0] - 0.82 * s[0] * s[0] / full;
+    assert!(s[0] < -4.0 && (s[3] - strength).abs() < 1e-9, "{s:?}");
+    let free = Vector6::new(0.0, 0.0, 0.0, 2e-2, 0.0, 0.0);
+    let slipped = point.stress(free)[3];
+    assert!((slipped - 0.18 * full).abs() < 1e-9);
+    assert!((point.stress(pressed)[3] - slipped).abs() < 1e-9);
+}
+
+/// Shear in the plane of a crack opens a second one at 45 degrees to the first axes, at ft, which the stress there
+/// never exceeds. Axes fixed by the first crack alone would carry any shear in its plane.
+#[test]
+fn a_second_crack_finds_its_own_direction() {
+    let p = parameters();
+    let mut point = Point::new(law(0.2));
+    point.stress(axial(1e-3));
+    let mut largest = 0.0_f64;
+    for i in 1..=400 {
+        let shear = 1e-5 * f64::from(i);
+        let s = point.stress(Vector6::new(1e-3, 0.0, 0.0, 0.0, shear, 0.0));
+        let half = (0.25 * (s[1] - s[2]).powi(2) + s[4] * s[4]).sqrt();
+        largest = largest.max(0.5 * (s[1] + s[2]) + half);
+    }
+    assert!((largest / p.ft_mpa - 1.0).abs() < 0.02, "{largest}");
+    let axes = &point.state[1..10];
+    assert!((axes[4].abs() - 0.5_f64.sqrt()).abs() < 1e-9, "{axes:?}");
+}
+
 /// fib Model Code 2010, 5.1-26: the curve in compression, peak -fcm at -eps_c1; crushing then is counted.
 #[test]
 fn compression_follows_the_model_code_to_its_peak() {

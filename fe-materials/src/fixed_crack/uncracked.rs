@@ -2,23 +2,23 @@
 
 use fe_core::kinematics::Solid;
 use fe_core::material::{MaterialError, Operator, PointContext, Response};
-use fe_core::voigt::{principal, strain_tensor, strain_transform, stress_along};
+use fe_core::principal::Principal;
+use fe_core::voigt::{strain_transform, stress_along};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use super::curves::Compression;
 use super::{FixedCrack, OPERATOR_FLOOR, State, wants_secant};
 
 impl FixedCrack {
-    /// Stress of the uncracked point, or `false` when a crack opens: the state then holds its axes.
+    /// Stress of the uncracked point of known principal strains, or `false` when a crack opens: the state then holds its axes.
     pub(super) fn uncracked(
         &self,
-        strain: &Vector6<f64>,
+        (e, axes): Principal,
         state: &mut State,
         ctx: &PointContext,
         out: &mut Response<Solid>,
     ) -> Result<bool, MaterialError> {
         let compression = Compression::new(&self.p, ctx.band_width)?;
-        let (e, axes) = principal(&strain_tensor(strain));
         let nu = self.p.poisson;
         let (q1, q2) = (
             (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)),
@@ -36,10 +36,11 @@ impl FixedCrack {
                 secant[i] = self.p.young_mpa;
                 slope[i] = self.p.young_mpa;
             } else {
-                secant[i] = compression.secant(state.kc[i]);
+                let (modulus, by_kc) = compression.secant(state.kc[i]);
+                secant[i] = modulus;
                 let growth = if excess > 0.0 { ctx.relaxation } else { 0.0 };
                 // d(secant c)/dc with dkc/dc = -a.
-                slope[i] = secant[i] - growth * compression.secant_slope(state.kc[i]) * c;
+                slope[i] = modulus - growth * by_kc * c;
             }
         }
         let stress = Vector3::from_fn(|i, _| secant[i] * equivalent[i]);
@@ -48,6 +49,7 @@ impl FixedCrack {
             state.axes = axes;
             state.onset = onset;
             state.kt = self.strains_at_onset(onset);
+            state.shares = [1.0; 2];
             state.kc = committed_kc;
             return Ok(false);
         }

@@ -1,6 +1,7 @@
 //! Path constraints: the equation that borders the system and fixes the load factor.
 
 mod arc_length;
+mod dissipated_energy;
 mod dissipation;
 mod free_displacement;
 mod linear;
@@ -14,6 +15,7 @@ use crate::error::SolverError;
 use crate::stage::Stage;
 
 pub use arc_length::ArcLength;
+pub use dissipated_energy::DissipatedEnergy;
 pub use dissipation::{Dissipation, Energies};
 pub use free_displacement::FreeDisplacement;
 pub use load_factor::LoadFactor;
@@ -46,6 +48,21 @@ pub trait PathConstraint: Debug + Send {
     /// where it starts from the accepted state, whose tangent is that of unloading in some laws.
     fn extrapolate(&self, _du: &[f64], _dlambda: f64) -> Option<f64> {
         None
+    }
+
+    /// Looks at the increment so far, for constraints that must evaluate the model to know themselves. Correction du_r and
+    /// response du_q are the `directions` in which their gradient will be asked for.
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError`] when the model cannot be evaluated there.
+    fn observe(
+        &mut self,
+        _stage: &mut Stage<'_>,
+        _increment: (&[f64], f64),
+        _directions: [&[f64]; 2],
+    ) -> Result<(), SolverError> {
+        Ok(())
     }
 
     /// Value and derivatives at the increment so far; writes dg/du into `gradient`, zeroed before. At a zero

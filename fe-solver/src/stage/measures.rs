@@ -1,6 +1,7 @@
 //! What is read off the last evaluation of a stage: residual, loads, stability.
 
 use fe_core::element::EvaluationContext;
+use fe_core::energy::Change;
 use fe_core::material::Operator;
 
 use serde::{Deserialize, Serialize};
@@ -86,6 +87,30 @@ impl Stage<'_> {
     /// Reaction (N) of a constrained DOF in the last evaluation.
     pub fn reaction(&self, dof: usize) -> f64 {
         self.assembled.internal[dof] - self.external[dof]
+    }
+
+    /// Energies of the step from the accepted state to the trial state of the last evaluation, at `u` and `lambda`.
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError::Model`].
+    pub fn weigh(&mut self, u: &[f64], lambda: f64) -> Result<Change, SolverError> {
+        let (model, conditions) = (self.model, &self.conditions);
+        let state = &*self.state;
+        if !self.opened {
+            let start = (self.lambda, self.displacement.as_slice());
+            self.ledger.rebase(start.1);
+            self.ledger
+                .weigh(model, conditions, start, |e| state.committed(e))?;
+            self.ledger.settle();
+            self.opened = true;
+        }
+        let here = (lambda, u);
+        let change = self
+            .ledger
+            .weigh(model, conditions, here, |e| state.trial(e))?;
+        self.weighed = Some(change);
+        Ok(change)
     }
 
     /// Signs of the symmetric part (K + K^T)/2 of the consistent tangent at `u`: no negative pivots in

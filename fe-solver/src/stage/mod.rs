@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use fe_core::assembly::{Assembled, Assembler};
 use fe_core::element::EvaluationContext;
+use fe_core::energy::{Change, Ledger};
 use fe_core::material::Operator;
 use fe_core::model::{Conditions, Model};
 use fe_core::state::StateStore;
@@ -71,6 +72,11 @@ pub struct Stage<'m> {
     largest_reactions: f64,
     counters: Counters,
     times: PhaseTimes,
+    ledger: Ledger,
+    weighed: Option<Change>,
+    last_change: Option<Change>,
+    /// Whether the ledger knows the state from which the stage starts.
+    opened: bool,
 }
 
 impl<'m> Stage<'m> {
@@ -108,7 +114,33 @@ impl<'m> Stage<'m> {
             largest_reactions: 0.0,
             counters: Counters::default(),
             times: PhaseTimes::default(),
+            ledger: Ledger::default(),
+            weighed: None,
+            last_change: None,
+            opened: false,
         })
+    }
+
+    /// Goes on with the energies of the stage before.
+    #[must_use]
+    pub fn with_ledger(mut self, ledger: Ledger) -> Self {
+        self.ledger = ledger;
+        self
+    }
+
+    /// Energies up to the accepted state.
+    pub const fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+
+    /// Energies of the last accepted step; none before the first step and after a snap.
+    pub const fn last_change(&self) -> Option<Change> {
+        self.last_change
+    }
+
+    /// Energies up to the accepted state, for the stage that follows.
+    pub fn into_ledger(self) -> Ledger {
+        self.ledger
     }
 
     /// The model.
@@ -328,7 +360,8 @@ impl<'m> Stage<'m> {
         self.state.roll_back();
     }
 
-    /// Accepts displacement, load factor and the trial state of the last evaluation. The increment of a `held` step,
+    /// Accepts displacement, load factor and the trial state of the last evaluation, which has been
+    /// [weighed](Self::weigh). The increment of a `held` step,
     /// which passed a snap, says nothing about the next one and is forgotten. `signs` are those of the tangent there.
     pub fn commit(&mut self, u: Vec<f64>, lambda: f64, held: bool, signs: Signs) {
         self.signs = signs;
@@ -343,6 +376,8 @@ impl<'m> Stage<'m> {
         self.accepted_load = self.load();
         self.largest_reactions = self.largest_reactions.max(self.reactions());
         self.state.commit();
+        self.ledger.settle();
+        self.last_change = self.weighed.take().filter(|_| !held);
         self.counters.steps += 1;
     }
 

@@ -1,5 +1,6 @@
 //! The stages of a run, one after the other.
 
+use fe_core::energy::Ledger;
 use fe_core::state::StateStore;
 use fe_solver::control::StepControl;
 use fe_solver::driver::Driver;
@@ -20,6 +21,7 @@ struct March<'a> {
     origin: Origin,
     steps: usize,
     work: Vec<(Counters, PhaseTimes)>,
+    ledger: Ledger,
 }
 
 /// Runs self weight, then the load stage; with `staging`, loads the bare beam first.
@@ -42,6 +44,7 @@ pub fn analyse(
         origin: Origin::default(),
         steps: 0,
         work: Vec::new(),
+        ledger: Ledger::default(),
     };
     let Some(staging) = staging else {
         let mut state = StateStore::new(beam.model.elements());
@@ -88,10 +91,7 @@ pub fn analyse(
     }
     let at = (first.last.displacement.as_slice(), &state);
     let (beam, start, mut state) = bare.strengthened(staging.specimen, staging.settings, at)?;
-    march
-        .observer
-        .bonded(&beam, &start)
-        .map_err(SolverError::Output)?;
+    march.observer.bonded(&beam).map_err(SolverError::Output)?;
     let rest = Stepping {
         until_mm: stepping.until_mm - imposed,
         ..*stepping
@@ -120,7 +120,8 @@ impl March<'_> {
     /// Self weight. Returns the displacements.
     fn weight(&mut self, beam: &Beam, state: &mut StateStore) -> Result<Vec<f64>, SolverError> {
         let zero = vec![0.0; beam.model.dofs().len()];
-        let mut stage = Stage::new(&beam.model, beam.weight.clone(), state, zero)?;
+        let mut stage = Stage::new(&beam.model, beam.weight.clone(), state, zero)?
+            .with_ledger(std::mem::take(&mut self.ledger));
         let mut recorder = WeightRecorder {
             beam,
             observer: &mut *self.observer,
@@ -133,7 +134,9 @@ impl March<'_> {
         // Whatever follows starts from an equilibrium.
         control.run(&mut stage, &mut SecantAnderson::default(), &mut recorder)?;
         self.work.push((*stage.counters(), *stage.times()));
-        Ok(stage.displacement().to_vec())
+        let reached = stage.displacement().to_vec();
+        self.ledger = stage.into_ledger();
+        Ok(reached)
     }
 
     /// One stage of imposed deflection. Returns what it leaves behind and how far the loads moved (mm).
@@ -149,7 +152,8 @@ impl March<'_> {
             Until::Unloaded => &beam.unloading,
             Until::Failure | Until::Load(_) => &beam.loading,
         };
-        let mut stage = Stage::new(&beam.model, conditions.clone(), state, start)?;
+        let mut stage = Stage::new(&beam.model, conditions.clone(), state, start)?
+            .with_ledger(std::mem::take(&mut self.ledger));
         let observer = &mut *self.observer;
         let mut recorder = LoadRecorder::new(beam, observer, &self.origin);
         recorder.steps_before = self.steps;
@@ -175,6 +179,8 @@ impl March<'_> {
             work: Vec::new(),
             stop: stop.map_err(AnalysisError::from),
         };
-        Ok((outcome, stage.lambda()))
+        let moved = stage.lambda();
+        self.ledger = stage.into_ledger();
+        Ok((outcome, moved))
     }
 }

@@ -150,13 +150,12 @@ pub trait Observer {
     fn step(&mut self, view: &StepView<'_>, step: usize, reading: &Reading)
     -> io::Result<Continue>;
 
-    /// Sheets have been bonded to the loaded beam: from now on it is this one, with `u` the displacements of
-    /// all its DOFs.
+    /// Sheets have been bonded to the loaded beam: from now on it is this one.
     ///
     /// # Errors
     ///
     /// An output error ends the run.
-    fn bonded(&mut self, beam: &Beam, u: &[f64]) -> io::Result<()>;
+    fn bonded(&mut self, beam: &Beam) -> io::Result<()>;
 }
 
 /// A beam that is loaded before its sheets are bonded.

@@ -52,6 +52,11 @@ pub(super) fn mean_strength(specimen: &Specimen, preset: Preset) -> Result<f64, 
     Ok(properties(specimen, preset)?.fcm_mpa)
 }
 
+/// Mean tensile strength (MPa) as the preset reads the report.
+pub(super) fn tensile_strength(specimen: &Specimen, preset: Preset) -> Result<f64, MaterialError> {
+    Ok(properties(specimen, preset)?.fctm_mpa)
+}
+
 /// Law of the concrete in zones with or without stirrups. The fixed-crack law takes the reported modulus,
 /// the others that of the Model Code.
 fn concrete(

@@ -88,6 +88,8 @@ pub struct Beam {
     pub concrete: Range<usize>,
     /// Crack-band width of every element of concrete (mm).
     pub bands: Vec<f64>,
+    /// Mean tensile strength of the concrete (MPa).
+    pub tensile_mpa: f64,
     /// Elements of the plates.
     pub plates: Range<usize>,
     /// Bars and the elements they were cut into.
@@ -227,6 +229,7 @@ impl Beam {
             model,
             concrete,
             bands,
+            tensile_mpa: laws::tensile_strength(specimen, settings.preset)?,
             plates,
             bars,
             sheets,

@@ -53,7 +53,7 @@ impl ModelSettings {
         let plain = Self {
             preset,
             mesh: default_mesh(specimen),
-            integration: HexRule::Full,
+            integration: HexRule::Irons,
             law: Law::FixedCrack,
             dowel: true,
             tension_softening: TensionSoftening::Exponential,

@@ -29,7 +29,7 @@ impl Observer for Silent<'_> {
         Ok(Continue::Yes)
     }
 
-    fn bonded(&mut self, _: &Beam, _: &[f64]) -> io::Result<()> {
+    fn bonded(&mut self, _: &Beam) -> io::Result<()> {
         Ok(())
     }
 }

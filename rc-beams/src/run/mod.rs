@@ -165,8 +165,11 @@ fn run(
         }
         _ => None,
     };
+    let tension =
+        |capacity: &Capacity| watch.largest_tension(outcome.path.len(), capacity.peak + 1);
     let figures = capacity.and_then(|capacity| {
         let mut verdict = Verdict::of(&outcome.path, &capacity);
+        verdict.limit_by_locking(tension(&capacity));
         if let Some(band) = &band {
             verdict.limit_by_step(band.change);
         }
@@ -237,6 +240,7 @@ fn run(
         stop_reason,
         diagnosis,
         bond_error,
+        tension_over_strength: tension(&capacity),
         step_band: band,
         self_weight_reaction_kn: outcome.self_weight_kn,
         energy: Some(watch.energy()),

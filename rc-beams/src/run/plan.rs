@@ -48,6 +48,7 @@ pub(super) fn settings(options: &RunOptions, specimen: &Specimen) -> ModelSettin
     if let Some(integration) = options.integration {
         settings.integration = match integration {
             Integration::Reduced => HexRule::Reduced,
+            Integration::Irons => HexRule::Irons,
             Integration::Full => HexRule::Full,
         };
     }
@@ -115,6 +116,7 @@ pub(super) fn setup(
         driver: driver.into(),
         integration: match settings.integration {
             HexRule::Reduced => "reduced".into(),
+            HexRule::Irons => "irons".into(),
             HexRule::Full => "full".into(),
         },
         mesh: format!("{nx}x{ny}x{nz}"),

@@ -223,9 +223,8 @@ impl Observer for Recording<'_> {
         Ok(Continue::Yes)
     }
 
-    fn bonded(&mut self, beam: &Beam, u: &[f64]) -> io::Result<()> {
+    fn bonded(&mut self, beam: &Beam) -> io::Result<()> {
         self.gauges.clone_from(&beam.gauges);
-        self.watch.bonded(u);
         self.progress.note("sheets bonded");
         Ok(())
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::io;
 
-use fe_core::energy::{Cracking, Ledger};
+use fe_core::energy::{self, Cracking};
 use fe_core::model::{Model, ModelError};
 use fe_core::state::StateStore;
 use fe_solver::stage::Stage;
@@ -34,11 +34,16 @@ const JOULE: f64 = 2e-3;
 pub(super) struct Watch {
     layout: Layout,
     sheet_layout: SheetLayout,
-    ledger: Ledger,
+    /// Part of every element.
+    part: Vec<usize>,
+    energies: Vec<energy::PartEnergy>,
+    external_work: f64,
     cracking: Cracking,
     log: EventLog,
     table: Option<SheetTable>,
     rows: Vec<SheetRow>,
+    /// Largest principal tension of cracked concrete over its strength, step by step under load.
+    tension: Vec<f64>,
 }
 
 impl Watch {
@@ -55,11 +60,14 @@ impl Watch {
         Ok(Self {
             layout: layout.clone(),
             sheet_layout,
-            ledger: Ledger::new(parts(beam), PARTS.len()),
+            part: parts(beam),
+            energies: Vec::new(),
+            external_work: 0.0,
             cracking: Cracking::default(),
             log: EventLog::create(folder)?,
             table,
             rows: Vec::new(),
+            tension: Vec::new(),
         })
     }
 
@@ -73,14 +81,17 @@ impl Watch {
         reading: &Reading,
     ) -> io::Result<&[Event]> {
         let (model, u, state) = (stage.model(), stage.displacement(), stage.state());
-        self.ledger
-            .record(model, stage.conditions(), stage.lambda(), u, state)
-            .map_err(io::Error::other)?;
+        self.energies = stage.ledger().parts(&self.part, PARTS.len());
+        self.external_work = stage.ledger().external_work();
         let at = (step, reading.deflection_mm, reading.load_kn);
         let mut survey = Survey::new(&self.layout);
         self.cracking.begin();
         let points = (&mut survey, &mut self.cracking);
         steel_and_concrete(beam, (model, u, state), points).map_err(io::Error::other)?;
+        if step > 0 {
+            let tension = self.cracking.largest_tension();
+            self.tension.push(tension / beam.tensile_mpa);
+        }
         if let Some(record) = &beam.sheets {
             let present = model.elements().len() > record.membranes.start;
             let seen = if present {
@@ -102,11 +113,6 @@ impl Watch {
         Ok(self.log.step(&evidence)?)
     }
 
-    /// The beam has been strengthened; `u` are the displacements of all its DOFs.
-    pub(super) fn bonded(&mut self, u: &[f64]) {
-        self.ledger.rebase(u);
-    }
-
     /// Ends what an earlier run left in the tables.
     pub(super) fn settle(&mut self) -> Result<(), ResultsError> {
         self.log.settle()?;
@@ -118,6 +124,13 @@ impl Watch {
         &self.rows
     }
 
+    /// Largest principal tension of cracked concrete over its strength in the first `steps` of the last `path` steps.
+    pub(super) fn largest_tension(&self, path: usize, steps: usize) -> f64 {
+        let before = self.tension.len().saturating_sub(path);
+        let steps = self.tension.iter().skip(before).take(steps);
+        steps.fold(0.0, |a, b| a.max(*b))
+    }
+
     pub(super) const fn sheet_layout(&self) -> &SheetLayout {
         &self.sheet_layout
     }
@@ -125,7 +138,7 @@ impl Watch {
     /// Energy so far.
     pub(super) fn energy(&self) -> Energy {
         let mut parts = BTreeMap::new();
-        for (name, part) in PARTS.iter().zip(self.ledger.parts()) {
+        for (name, part) in PARTS.iter().zip(&self.energies) {
             if part.work == 0.0 {
                 continue;
             }
@@ -145,7 +158,7 @@ impl Watch {
                 parts.insert((*name).into(), of(part.work, part.stored, dissipated));
             }
         }
-        Energy::new(JOULE * self.ledger.external_work(), parts)
+        Energy::new(JOULE * self.external_work, parts)
     }
 }
 

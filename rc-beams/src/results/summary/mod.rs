@@ -38,6 +38,8 @@ pub struct Summary {
     pub ratio_model_to_test: Option<f64>,
     /// What the size of the elements costs in bond.
     pub bond_error: Option<BondError>,
+    /// Largest principal tension of cracked concrete up to the peak over the tensile strength: 1 where cracks do not lock.
+    pub tension_over_strength: f64,
     /// What the length of the steps costs, where it was asked for.
     pub step_band: Option<StepBand>,
     /// Sum of the vertical reactions under self weight (kN), whole width.

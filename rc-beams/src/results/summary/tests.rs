@@ -4,7 +4,7 @@ use crate::results::mode::FailureMode;
 use serde_json::Value;
 
 /// Keys that readers may rely on.
-const KEYS: [&str; 37] = [
+const KEYS: [&str; 38] = [
     "specimen",
     "preset",
     "law",
@@ -32,6 +32,7 @@ const KEYS: [&str; 37] = [
     "mode",
     "mode_evidence",
     "counterfactual_ratio",
+    "tension_over_strength",
     "step_band",
     "energy",
     "test_load_kn",
@@ -79,6 +80,7 @@ fn summary(loads: &[f64]) -> Summary {
         ratio_model_to_test: Some(149.2 / 151.0),
         self_weight_reaction_kn: f64::NAN,
         bond_error: None,
+        tension_over_strength: 1.0,
         step_band: None,
         energy: None,
         wall_s: WallTime {

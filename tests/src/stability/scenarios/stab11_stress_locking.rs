@@ -1,6 +1,8 @@
 //! STAB-11: tension until a crack opens, then strains that grow as 0.5 : 0.75 : 1 (xx, yy, xy), so that the principal
 //! axes turn away from the crack (after Willam, Pramono and Sture 1987); E = 10 000 MPa, ft = 1 MPa, softening to 3e-3.
 
+use fe_core::element::PointSample;
+use fe_core::energy::Cracking;
 use fe_core::kinematics::Solid;
 use fe_core::material::{Material, Operator, PointContext};
 use fe_core::voigt::{principal, stress_tensor};
@@ -8,10 +10,13 @@ use fe_materials::concrete::{ConcreteScalars, Objective};
 use fe_materials::fixed_crack::{
     FixedCrack, FixedCrackParameters, ShearTransfer, TensionSoftening,
 };
+use fe_solver::capacity::LOCKING;
 use nalgebra::Vector6;
 
 use crate::stability::{Case, Failure, Figure, Method, Scenario};
 
+/// Tensile strength (MPa).
+const FT: f64 = 1.0;
 /// Crack-band width (mm).
 pub(super) const BAND: f64 = 50.0;
 
@@ -21,7 +26,7 @@ pub(super) fn concrete(shear_transfer: ShearTransfer) -> Result<FixedCrack, Fail
         fracture_energy: 0.5 * 3e-3 * BAND,
         tension_softening: TensionSoftening::Linear,
         shear_transfer,
-        ..FixedCrackParameters::from_strength(15.0, 1.0, 10_000.0)
+        ..FixedCrackParameters::from_strength(15.0, FT, 10_000.0)
     };
     Ok(FixedCrack::new(parameters, None)?)
 }
@@ -49,33 +54,53 @@ impl Point {
         self.state = trial;
         Ok(response.stress)
     }
+
+    /// The point as it is seen from outside.
+    fn sample<'a>(&'a self, strain: &'a Vector6<f64>, stress: &'a Vector6<f64>) -> PointSample<'a> {
+        PointSample {
+            position: [0.0; 3],
+            volume: 1.0,
+            strain: strain.as_slice(),
+            stress: stress.as_slice(),
+            report: self.law.report(strain, &self.state),
+            state_vars: self.law.state_vars(),
+            state: &self.state,
+        }
+    }
 }
 
-/// Principal stress (MPa), at most on the way and at the end.
-fn turn(mut point: Point) -> Result<[f64; 2], Failure> {
+/// Principal stress (MPa), at most on the way and at the end, and whether a beam would report locked cracks.
+fn turn(mut point: Point) -> Result<([f64; 2], bool), Failure> {
+    let mut cracking = Cracking::default();
     let mut strain = Vector6::new(1.0001e-4, -0.2e-4, -0.2e-4, 0.0, 0.0, 0.0);
     point.stress(&strain)?;
-    let (mut most, mut last) = (0.0_f64, 0.0);
+    let (mut most, mut last, mut locked) = (0.0_f64, 0.0, false);
     for _ in 0..20_000 {
         strain += 1e-6 * Vector6::new(0.5, 0.75, 0.0, 1.0, 0.0, 0.0);
         let stress = point.stress(&strain)?;
+        cracking.begin();
+        cracking.point(&point.sample(&strain, &stress));
+        locked |= cracking.largest_tension() > LOCKING * FT;
         last = principal(&stress_tensor(&stress)).0[0];
         most = most.max(last);
     }
-    Ok([most, last])
+    Ok(([most, last], locked))
 }
 
 fn case(point: Result<Point, Failure>) -> Result<Case, Failure> {
-    let [largest, end] = turn(point?)?;
-    Ok(Case::checked(vec![
-        Figure::at_most("largest principal stress, MPa", largest, 1.05),
-        Figure::at_most("principal stress at the end, MPa", end, 0.05),
-    ]))
+    let ([largest, end], locked) = turn(point?)?;
+    Ok(Case {
+        marked: usize::from(locked),
+        ..Case::checked(vec![
+            Figure::at_most("largest principal stress, MPa", largest, 1.05),
+            Figure::at_most("principal stress at the end, MPa", end, 0.05),
+        ])
+    })
 }
 
 fn rotating() -> Result<Point, Failure> {
     let scalars = ConcreteScalars {
-        fctm_mpa: 1.0,
+        fctm_mpa: FT,
         young_mpa: 10_000.0,
         eps_c1: 3e-3,
         eps_c_lim: 4e-3,

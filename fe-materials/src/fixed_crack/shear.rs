@@ -1,0 +1,127 @@
+//! Shear in the axes of the cracks: retention, slip of the faces and their strength.
+
+use fe_core::material::PointContext;
+use nalgebra::Vector6;
+
+use super::shear_transfer::Interlock;
+use super::{FixedCrack, State};
+
+/// Shear components (Voigt order xy, yz, xz) that act across the same cracks, and the axes of these: the shear across
+/// the first crack, in whose plane the other axes may still turn, and the shear in its plane.
+pub(super) const PLANES: [(&[usize], &[usize]); 2] = [(&[0, 2], &[0, 1, 2]), (&[1], &[1, 2])];
+
+/// A factor on a modulus and its derivative with respect to the strain of one axis.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Factor {
+    pub(super) value: f64,
+    pub(super) slope: f64,
+    pub(super) axis: usize,
+}
+
+fn least(a: Factor, b: Factor) -> Factor {
+    if b.value < a.value { b } else { a }
+}
+
+/// Retention of the axes in tension, Et(kt)/E, and in compression, Ec(kc)/E.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Retention {
+    pub(super) tension: [Factor; 3],
+    pub(super) compression: [Factor; 3],
+    /// Derivatives of the kt with respect to the strains.
+    pub(super) growing: [f64; 3],
+}
+
+/// Shear stresses (MPa), Voigt order; their shares of the elastic ones and derivatives with respect to the local strains.
+#[derive(Debug, Default)]
+pub(super) struct Shear {
+    pub(super) stress: [f64; 3],
+    pub(super) shares: [f64; 3],
+    pub(super) tangent: [Vector6<f64>; 3],
+}
+
+impl FixedCrack {
+    /// Shear at local strains `e`, `normal` being the stresses (MPa) on the axes and their derivatives; updates the shares.
+    pub(super) fn shear(
+        &self,
+        state: &mut State,
+        (e, ctx): (&Vector6<f64>, &PointContext),
+        retention: &Retention,
+        normal: &[(f64, Vector6<f64>); 3],
+    ) -> Shear {
+        let mut out = Shear::default();
+        let elastic = |k: usize| self.shear_modulus * e[3 + k];
+        let crushed = retention.compression.into_iter().reduce(least);
+        let crushed = crushed.unwrap_or_default();
+        for ((pairs, axes), kept) in PLANES.into_iter().zip(0..) {
+            let wider = |a, b| if state.kt[b] > state.kt[a] { b } else { a };
+            let open = axes.iter().copied().reduce(wider).unwrap_or(0);
+            let tension = axes.iter().map(|&i| retention.tension[i]);
+            let mut share = tension.fold(crushed, least);
+            let opening = ctx.band_width * retention.growing[open];
+            let interlock = self.interlock(state.kt[open], ctx.band_width);
+            if let Some(lock) = &interlock {
+                let slips = Factor {
+                    value: lock.factor.0,
+                    slope: lock.factor.1 * opening,
+                    axis: open,
+                };
+                let slips = least(slips, crushed);
+                if slips.value > share.value {
+                    share = slips;
+                }
+            }
+            if share.value <= self.p.shear_floor {
+                (share.value, share.slope) = (self.p.shear_floor, 0.0);
+            }
+            if share.value > state.shares[kept] {
+                (share.value, share.slope) = (state.shares[kept], 0.0);
+            }
+            let square: f64 = pairs.iter().map(|&k| elastic(k).powi(2)).sum();
+            let strain = square.sqrt();
+            let strength = interlock.map(|lock| lock.strength(-normal[open].0));
+            let strength = strength.filter(|v| v.value < share.value * strain);
+            let least_share = self.p.shear_floor.min(share.value);
+            let mut carried = share.value;
+            // Derivatives of the carried share.
+            let mut slopes = Vector6::zeros();
+            slopes[share.axis] = share.slope;
+            if let Some(v) = strength {
+                let rate = ctx.relaxation;
+                let limit = (v.value / strain).max(least_share);
+                carried -= rate * (carried - limit);
+                slopes *= 1.0 - rate;
+                if limit > least_share {
+                    slopes -= normal[open].1 * (rate * v.by_pressure / strain);
+                    slopes[open] += rate * v.by_opening * opening / strain;
+                    for &l in pairs {
+                        slopes[3 + l] -= rate * limit * elastic(l) * self.shear_modulus / square;
+                    }
+                }
+            }
+            state.shares[kept] = carried;
+            for &k in pairs {
+                out.shares[k] = carried;
+                out.stress[k] = carried * elastic(k);
+                out.tangent[k] = slopes * elastic(k);
+                out.tangent[k][3 + k] += carried * self.shear_modulus;
+            }
+        }
+        out
+    }
+
+    /// Free energy (MPa) of the shear at local strains `e`.
+    pub(super) fn shear_energy(&self, state: &State, e: &Vector6<f64>) -> f64 {
+        let energy = |((pairs, _), share): ((&[usize], _), f64)| {
+            let square: f64 = pairs.iter().map(|&k| e[3 + k].powi(2)).sum();
+            0.5 * share * self.shear_modulus * square
+        };
+        PLANES.into_iter().zip(state.shares).map(energy).sum()
+    }
+
+    /// The interlock of a crack whose axis has been strained to `kt`, if it is open.
+    fn interlock(&self, kt: f64, h: f64) -> Option<Interlock> {
+        let w = h * (kt - self.p.ft_mpa / self.p.young_mpa);
+        let transfer = self.p.shear_transfer;
+        transfer.interlock(&self.p, self.shear_modulus, h, w)
+    }
+}
