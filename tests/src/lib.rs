@@ -13,6 +13,7 @@ pub mod figure;
 pub mod follow;
 pub mod hourglass;
 pub mod laws;
+pub mod manual;
 pub mod mesh;
 pub mod shell;
 pub mod softening_bar;

@@ -35,6 +35,8 @@ pub struct LinearStats {
     pub nnz_matrix: usize,
     /// Stored entries of the symmetric factor.
     pub nnz_factor: usize,
+    /// Multiplications and additions of a factorisation L L^T.
+    pub factor_flops: f64,
     /// Factorisations L L^T.
     pub cholesky: usize,
     /// Factorisations L B L^T.
@@ -121,6 +123,7 @@ impl LinearSolver for DirectSolver {
             equations: pattern.len(),
             nnz_matrix: pattern.nnz(),
             nnz_factor: symmetric.nnz(),
+            factor_flops: symmetric.flops(),
             ..LinearStats::default()
         };
         self.symmetric = Some(symmetric);

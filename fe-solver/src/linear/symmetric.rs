@@ -84,6 +84,23 @@ impl SymmetricFactor {
         self.factor.len()
     }
 
+    /// Multiplications and additions of L L^T: sum over the columns of the square of their stored entries.
+    pub(super) fn flops(&self) -> f64 {
+        let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else {
+            return 0.0;
+        };
+        let columns = symbolic.supernode_begin().iter();
+        let below = symbolic.col_ptr_for_row_idx().windows(2);
+        let nodes = columns.zip(symbolic.supernode_end()).zip(below);
+        nodes
+            .map(|((&begin, &end), rows)| {
+                let below = rows[1] - rows[0];
+                let entries = 1 + below..=end - begin + below;
+                entries.map(|m| (m * m) as f64).sum::<f64>()
+            })
+            .sum()
+    }
+
     /// L L^T; `Ok(false)` when a pivot is not positive.
     pub(super) fn cholesky(&mut self, values: &MatrixValues) -> Result<bool, LinearError> {
         let n = self.diagonal.len();

@@ -1,0 +1,103 @@
+//! Laws and hexahedra allocate nothing where time is spent.
+
+use std::alloc::System;
+use std::sync::Arc;
+
+use fe_core::element::{Element, ElementSystem, EvaluationContext};
+use fe_core::kinematics::{Axial, Kinematics, Solid};
+use fe_core::material::{Material, Operator, PointContext};
+use fe_core::shape::hex20;
+use fe_elements::{BandWidth, Hex20, HexRule};
+use fe_materials::concrete::{ConcreteScalars, Isochoric, Objective};
+use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
+use fe_materials::{Biso, Elastic, VonMises};
+use nalgebra::{Vector1, Vector6};
+use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+
+#[global_allocator]
+static COUNTING: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+/// Allocations while `work` runs.
+fn allocations(work: impl FnOnce()) -> usize {
+    let region = Region::new(COUNTING);
+    work();
+    let change = region.change();
+    change.allocations + change.reallocations
+}
+
+fn law_allocations<K: Kinematics>(
+    law: &dyn Material<K>,
+    strain: impl Fn(usize) -> K::Vector,
+) -> usize {
+    let n = law.state_len();
+    let (mut state, mut trial) = (vec![0.0; n], vec![0.0; n]);
+    law.init_state(&mut state);
+    let contexts = [Operator::None, Operator::Secant, Operator::Tangent]
+        .map(|operator| PointContext::new(30.0).with_operator(operator));
+    allocations(|| {
+        for i in 0..2000 {
+            for ctx in &contexts {
+                law.update(&strain(i), &state, &mut trial, ctx).unwrap();
+            }
+            state.copy_from_slice(&trial);
+        }
+    })
+}
+
+fn concrete() -> FixedCrack {
+    let p = FixedCrackParameters::from_strength(35.0, 2.7, 32_000.0);
+    FixedCrack::new(p, None).unwrap()
+}
+
+/// Protects the hot loop: an update and the evaluation of a hexahedron, with and without operator, allocate nothing, from
+/// the first strain to an open crack. Tests of one binary share the counter, so there is one test.
+#[test]
+fn updates_and_hexahedra_allocate_nothing() {
+    let counted = allocations(|| drop(std::hint::black_box(vec![0_u8; 7])));
+    assert_eq!(counted, 1, "the counter counts");
+    let scalars = ConcreteScalars::from_mean(35.0).unwrap();
+    let solids: [&dyn Material<Solid>; 5] = [
+        &concrete(),
+        &Objective::new(&scalars).unwrap(),
+        &Isochoric::new(&scalars).unwrap(),
+        &VonMises::new(2e5, 0.3, 400.0, 1e3).unwrap(),
+        &Elastic::new(2e5, 0.3).unwrap(),
+    ];
+    let wave = |i: usize, k: usize| 2e-6 * i as f64 * (0.01 * (i * (k + 1)) as f64).sin();
+    let solid = |i| Vector6::from_fn(|k, _| wave(i, k));
+    for law in solids {
+        assert_eq!(law_allocations(law, solid), 0, "{}", law.name());
+    }
+    let bar = Biso::hot_rolled(2e5, 400.0, 1e3).unwrap();
+    assert_eq!(
+        law_allocations::<Axial>(&bar, |i| Vector1::new(wave(i, 0))),
+        0
+    );
+
+    let coords = hex20::NODES.map(|x| x.map(|c| 25.0 * (c + 1.0)));
+    let nodes = std::array::from_fn(|a| a);
+    let law = Arc::new(concrete());
+    let element = Hex20::new(nodes, &coords, HexRule::Full, law, BandWidth::CubeRoot).unwrap();
+    let mut state = vec![0.0; element.state_len()];
+    element.init_state(&mut state);
+    let mut trial = state.clone();
+    let (mut force, mut stiffness) = (vec![0.0; 60], vec![0.0; 3600]);
+    let mut u = vec![0.0; 60];
+    let count = allocations(|| {
+        for i in 0..200_u32 {
+            for (k, u) in u.iter_mut().enumerate() {
+                *u = 1e-4 * f64::from(i) * (k as f64).sin();
+            }
+            for operator in [Operator::None, Operator::Secant, Operator::Tangent] {
+                let out = ElementSystem {
+                    force: &mut force,
+                    stiffness: &mut stiffness,
+                };
+                let ctx = EvaluationContext::new(operator);
+                element.evaluate(&u, &state, &mut trial, &ctx, out).unwrap();
+            }
+            state.copy_from_slice(&trial);
+        }
+    });
+    assert_eq!(count, 0, "hexahedron");
+}
