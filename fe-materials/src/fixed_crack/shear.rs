@@ -8,7 +8,7 @@ use super::{FixedCrack, State};
 
 /// Shear components (Voigt order xy, yz, xz) that act across the same cracks, and the axes of these: the shear across
 /// the first crack, in whose plane the other axes may still turn, and the shear in its plane.
-pub(super) const PLANES: [(&[usize], &[usize]); 2] = [(&[0, 2], &[0, 1, 2]), (&[1], &[1, 2])];
+const PLANES: [(&[usize], &[usize]); 2] = [(&[0, 2], &[0, 1, 2]), (&[1], &[1, 2])];
 
 /// A factor on a modulus and its derivative with respect to the strain of one axis.
 #[derive(Debug, Clone, Copy, Default)]
@@ -55,27 +55,17 @@ impl FixedCrack {
         for ((pairs, axes), kept) in PLANES.into_iter().zip(0..) {
             let wider = |a, b| if state.kt[b] > state.kt[a] { b } else { a };
             let open = axes.iter().copied().reduce(wider).unwrap_or(0);
-            let tension = axes.iter().map(|&i| retention.tension[i]);
-            let mut share = tension.fold(crushed, least);
             let opening = ctx.band_width * retention.growing[open];
             let interlock = self.interlock(state.kt[open], ctx.band_width);
-            if let Some(lock) = &interlock {
-                let slips = Factor {
-                    value: lock.factor.0,
-                    slope: lock.factor.1 * opening,
-                    axis: open,
-                };
-                let slips = least(slips, crushed);
-                if slips.value > share.value {
-                    share = slips;
-                }
-            }
-            if share.value <= self.p.shear_floor {
-                (share.value, share.slope) = (self.p.shear_floor, 0.0);
-            }
-            if share.value > state.shares[kept] {
-                (share.value, share.slope) = (state.shares[kept], 0.0);
-            }
+            let tension = axes.iter().map(|&i| retention.tension[i]);
+            let bridged = tension.fold(crushed, least);
+            let slips = interlock.map(|lock| Factor {
+                value: lock.factor.0,
+                slope: lock.factor.1 * opening,
+                axis: open,
+            });
+            let slips = slips.map(|slips| least(slips, crushed));
+            let share = self.share(bridged, slips, state.shares[kept]);
             let square: f64 = pairs.iter().map(|&k| elastic(k).powi(2)).sum();
             let strain = square.sqrt();
             let strength = interlock.map(|lock| lock.strength(-normal[open].0));
@@ -107,6 +97,23 @@ impl FixedCrack {
             }
         }
         out
+    }
+
+    /// Share carried below the strength of the faces: max(b_min, b, r), no more than was `kept`.
+    fn share(&self, bridged: Factor, slips: Option<Factor>, kept: f64) -> Factor {
+        let larger = slips.filter(|slips| slips.value > bridged.value);
+        let share = larger.unwrap_or(bridged);
+        let value = share.value.max(self.p.shear_floor).min(kept);
+        let slope = if value == share.value {
+            share.slope
+        } else {
+            0.0
+        };
+        Factor {
+            value,
+            slope,
+            ..share
+        }
     }
 
     /// Free energy (MPa) of the shear at local strains `e`.

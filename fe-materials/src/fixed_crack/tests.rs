@@ -248,6 +248,39 @@ fn latching_keeps_axes_but_not_growth() {
     assert!((base[10] - onset).abs() < 1e-15, "kappa_t at onset only");
 }
 
+/// Points answered together are answered as one by one, to the last bit, cracked or not; the first that fails is named.
+#[test]
+fn many_points_are_answered_as_one_by_one() {
+    let law = law(0.2);
+    let (n, count) = (law.state_len(), 60);
+    let strain =
+        |p: usize, size: f64| Vector6::from_fn(|k, _| size * ((7 * p + 3 * k) as f64).sin());
+    let ctx = PointContext::new(WIDTH);
+    let mut states = vec![0.0; n * count];
+    for (p, own) in states.chunks_exact_mut(n).enumerate() {
+        law.init_state(own);
+        if p % 3 == 0 {
+            let virgin = own.to_vec();
+            law.update(&strain(p, 1e-3), &virgin, own, &ctx).unwrap();
+        }
+    }
+    let mut strains: Vec<_> = (0..count).map(|p| strain(p + 1, 3e-4)).collect();
+    let mut trial = states.clone();
+    let mut seen = 0;
+    law.update_many(&strains, (&states, &mut trial), &ctx, &mut |p, found| {
+        let mut own = vec![0.0; n];
+        let state = &states[p * n..(p + 1) * n];
+        let expected = law.update(&strains[p], state, &mut own, &ctx).unwrap();
+        assert_eq!(*found, expected, "{p}");
+        seen += 1;
+    })
+    .unwrap();
+    assert_eq!(seen, count);
+    strains[41][2] = f64::NAN;
+    let failed = law.update_many(&strains, (&states, &mut trial), &ctx, &mut |_, _| {});
+    assert_eq!(failed.unwrap_err().0, 41);
+}
+
 /// Impossible input is an error that names parameter and remedy, before anything runs.
 #[test]
 fn impossible_parameters_and_bands_are_refused() {
