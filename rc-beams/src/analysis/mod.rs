@@ -142,6 +142,15 @@ pub trait Observer {
         Ok(())
     }
 
+    /// The driver or the step control has decided something about a step, with the reason.
+    ///
+    /// # Errors
+    ///
+    /// An output error ends the run.
+    fn note(&mut self, _step: usize, _text: &str) -> io::Result<()> {
+        Ok(())
+    }
+
     /// A step under load was accepted, counted through all stages. The answer tells whether to go on.
     ///
     /// # Errors

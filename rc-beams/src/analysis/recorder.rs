@@ -118,6 +118,10 @@ impl Recorder for LoadRecorder<'_> {
         })
     }
 
+    fn note(&mut self, step: usize, text: &str) -> io::Result<()> {
+        self.observer.note(self.steps_before + step, text)
+    }
+
     fn step(&mut self, view: &StepView<'_>) -> io::Result<Continue> {
         let reading = read(self.beam, view, self.origin);
         self.path.push(PathPoint {

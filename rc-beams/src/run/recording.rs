@@ -223,6 +223,11 @@ impl Observer for Recording<'_> {
         Ok(Continue::Yes)
     }
 
+    fn note(&mut self, step: usize, text: &str) -> io::Result<()> {
+        self.progress.note(&format!("step {step}: {text}"));
+        Ok(())
+    }
+
     fn bonded(&mut self, beam: &Beam) -> io::Result<()> {
         self.gauges.clone_from(&beam.gauges);
         self.progress.note("sheets bonded");
