@@ -85,6 +85,8 @@ struct Totals {
     displacement: Vec<f64>,
     external: Vec<f64>,
     external_work: f64,
+    /// From the state before.
+    change: Change,
 }
 
 impl Ledger {
@@ -142,17 +144,18 @@ impl Ledger {
         let advanced: f64 = (0..u.len())
             .map(|d| 0.5 * (self.at.external[d] + external[d]) * (u[d] - before[d]))
             .sum();
-        self.next = Totals {
-            displacement: u.to_vec(),
-            external,
-            external_work: self.at.external_work + advanced,
-        };
         let mut change = Change::default();
         for (now, seen) in self.weighed.iter().zip(&self.elements) {
             change.work += now.energy.work - seen.energy.work;
             change.stored += now.energy.stored - seen.energy.stored;
             change.turnover += now.energy.work.abs();
         }
+        self.next = Totals {
+            displacement: u.to_vec(),
+            external,
+            external_work: self.at.external_work + advanced,
+            change,
+        };
         Ok(change)
     }
 
@@ -160,6 +163,11 @@ impl Ledger {
     pub fn settle(&mut self) {
         std::mem::swap(&mut self.elements, &mut self.weighed);
         std::mem::swap(&mut self.at, &mut self.next);
+    }
+
+    /// Energies of the last step settled.
+    pub const fn last_change(&self) -> Change {
+        self.at.change
     }
 
     /// Work of loads and reactions so far (N mm).

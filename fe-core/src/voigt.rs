@@ -7,21 +7,22 @@ pub use crate::principal::principal;
 /// Index pairs of the Voigt components.
 pub const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
 
+/// Index pairs of the shear components.
+pub const SHEAR_PAIRS: [(usize, usize); 3] = [PAIRS[3], PAIRS[4], PAIRS[5]];
+
 /// Symmetric tensor of a Voigt stress.
 pub fn stress_tensor(s: &Vector6<f64>) -> Matrix3<f64> {
     Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2])
 }
 
-/// Symmetric tensor of a Voigt strain (shear components halved).
+/// Tensor components of a Voigt strain (shear components halved), in the same order.
+pub fn strain_components(e: &Vector6<f64>) -> Vector6<f64> {
+    Vector6::new(e[0], e[1], e[2], 0.5 * e[3], 0.5 * e[4], 0.5 * e[5])
+}
+
+/// Symmetric tensor of a Voigt strain.
 pub fn strain_tensor(e: &Vector6<f64>) -> Matrix3<f64> {
-    stress_tensor(&Vector6::new(
-        e[0],
-        e[1],
-        e[2],
-        0.5 * e[3],
-        0.5 * e[4],
-        0.5 * e[5],
-    ))
+    stress_tensor(&strain_components(e))
 }
 
 /// Voigt stress of a symmetric tensor.

@@ -161,25 +161,25 @@ impl StepControl {
                 Ok(mut attempt) if attempt.converged || may_flag => {
                     let counters = *stage.counters();
                     let (signs, change) = Self::measure(stage, &attempt)?;
-                    let creates_energy = driver.balances() && change.creates_energy();
-                    if creates_energy && can_shorten {
-                        recorder.note(step, &creation(&change))?;
-                        heard.notes.push(creation(&change));
-                        stage.roll_back();
-                        stage.counters_mut().cutbacks += 1;
-                        length = shorter;
-                        continue;
+                    if driver.balances() && change.creates_energy() {
+                        if can_shorten {
+                            recorder.note(step, &creation(&change))?;
+                            heard.notes.push(creation(&change));
+                            cut_back(stage);
+                            length = shorter;
+                            continue;
+                        }
+                        if !may_flag {
+                            stage.roll_back();
+                            return Err(SolverError::CreatesEnergy {
+                                lambda: stage.lambda(),
+                                step: this,
+                                dissipated: change.dissipated(),
+                                work: change.work,
+                            });
+                        }
+                        attempt.converged = false;
                     }
-                    if creates_energy && !may_flag {
-                        stage.roll_back();
-                        return Err(SolverError::CreatesEnergy {
-                            lambda: stage.lambda(),
-                            step: this,
-                            dissipated: change.dissipated(),
-                            work: change.work,
-                        });
-                    }
-                    attempt.converged &= !creates_energy;
                     let entry = Entry {
                         length,
                         taken: this,
@@ -203,13 +203,11 @@ impl StepControl {
                     attempts = 0;
                 }
                 Ok(_) if can_shorten => {
-                    stage.roll_back();
-                    stage.counters_mut().cutbacks += 1;
+                    cut_back(stage);
                     length = shorter;
                 }
                 Err(e) if can_shorten && e.is_recoverable() => {
-                    stage.roll_back();
-                    stage.counters_mut().cutbacks += 1;
+                    cut_back(stage);
                     length = shorter;
                 }
                 Ok(attempt) => {
@@ -372,6 +370,12 @@ impl StepControl {
         let (signs, _) = Self::measure(stage, &entry.attempt)?;
         Self::accept(stage, recorder, step, (entry, signs))
     }
+}
+
+/// Gives an attempt up for a shorter step.
+fn cut_back(stage: &mut Stage<'_>) {
+    stage.roll_back();
+    stage.counters_mut().cutbacks += 1;
 }
 
 /// What is said of a step that creates energy.

@@ -10,11 +10,8 @@ use fe_core::material::{Material, Operator};
 use fe_elements::HexRule;
 use fe_materials::VonMises;
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
-use fe_solver::control::{OnFailure, StepControl};
-use fe_solver::secant::{SecantAnderson, SecantSettings};
 use fe_solver::stage::Stage;
 use fe_tests::beam::bare_beam;
-use fe_tests::solve::run;
 
 fn newton(c: &mut Criterion) {
     let concrete = FixedCrackParameters::from_strength(38.0, 2.9, 33_000.0);
@@ -29,21 +26,7 @@ fn newton(c: &mut Criterion) {
     let mut group = c.benchmark_group("iteration");
     for (name, law, deflection) in laws {
         let beam = bare_beam([60, 4, 1], HexRule::Reduced, &law).expect("a beam");
-        let control = StepControl {
-            on_failure: OnFailure::Flag,
-            ..StepControl::new(deflection / 6.0, deflection)
-        };
-        let mut driver = SecantAnderson::new(SecantSettings::default());
-        let conditions = beam.conditions.clone();
-        let reached = run(
-            &beam.model,
-            conditions,
-            &control,
-            &mut driver,
-            |_| {},
-            |_| {},
-        );
-        let mut reached = reached.expect("a path");
+        let mut reached = beam.bent(deflection).expect("a path");
         let (u, state) = (reached.displacement, &mut reached.state);
         let mut stage =
             Stage::new(&beam.model, beam.conditions, state, u.clone()).expect("a stage");

@@ -9,8 +9,12 @@ use fe_core::material::Material;
 use fe_core::mesh::NodeId;
 use fe_core::model::{Conditions, Model};
 use fe_elements::HexRule;
+use fe_solver::control::{OnFailure, StepControl};
+use fe_solver::error::SolverError;
+use fe_solver::secant::{SecantAnderson, SecantSettings};
 
 use crate::mesh::{boxes, hexahedra, lines, nodes_where};
+use crate::solve::{Solution, run};
 
 /// Length, depth and half width (mm).
 pub const SIZE: [f64; 3] = [3050.0, 305.0, 75.0];
@@ -27,6 +31,30 @@ pub struct BareBeam {
     pub conditions: Conditions,
     /// Nodes of both support lines.
     pub supports: Vec<NodeId>,
+}
+
+impl BareBeam {
+    /// The beam at a deflection (mm), reached in six steps of the secant driver; steps that miss the criterion are kept.
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError`].
+    pub fn bent(&self, deflection: f64) -> Result<Solution, SolverError> {
+        let control = StepControl {
+            on_failure: OnFailure::Flag,
+            ..StepControl::new(deflection / 6.0, deflection)
+        };
+        let mut driver = SecantAnderson::new(SecantSettings::default());
+        let conditions = self.conditions.clone();
+        run(
+            &self.model,
+            conditions,
+            &control,
+            &mut driver,
+            |_| {},
+            |_| {},
+        )
+    }
 }
 
 /// Builds the beam with `cells` along x, y, z.

@@ -155,6 +155,19 @@ pub fn cases() -> Result<Vec<Case>, Failure> {
     ])
 }
 
+/// One cubic hexahedron, its crack-band width the side (mm).
+///
+/// # Errors
+///
+/// Whatever mesh, law or element refuse.
+pub fn cell(side: f64, rule: HexRule, law: Arc<dyn Material<Solid>>) -> Result<Model, Failure> {
+    let line = [0.0, side];
+    let mesh = boxes(&line, &line, &line)?;
+    let (nodes, coords) = cells(&mesh, &mesh.blocks()[0]).next().ok_or("no cell")?;
+    let cube = Hex20::new(nodes, &coords, rule, law, BandWidth::Fixed(side))?;
+    Ok(Model::new(mesh, vec![Box::new(cube)]))
+}
+
 /// Mean stress (MPa) at equal steps of strain up to `end`, computed on the cube; the first point is at rest.
 ///
 /// The cube has 27 points: with 8, its softening soon concentrates in half of the points, another path.
@@ -167,11 +180,7 @@ pub fn curve(
     end: f64,
     steps: usize,
 ) -> Result<Vec<[f64; 2]>, Failure> {
-    let mesh = boxes(&[0.0, EDGE], &[0.0, EDGE], &[0.0, EDGE])?;
-    let (nodes, coords) = cells(&mesh, &mesh.blocks()[0]).next().ok_or("no cell")?;
-    let band = BandWidth::Fixed(EDGE);
-    let cube = Hex20::new(nodes, &coords, HexRule::Full, Arc::clone(law), band)?;
-    let model = Model::new(mesh, vec![Box::new(cube)]);
+    let model = cell(EDGE, HexRule::Full, Arc::clone(law))?;
     let mut conditions = Conditions::new(&model);
     for (axis, dof) in Dof::DISPLACEMENTS.into_iter().enumerate() {
         hold(&model, &mut conditions, &[dof], |x| x[axis] == 0.0)?;

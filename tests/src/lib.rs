@@ -15,6 +15,7 @@ pub mod hourglass;
 pub mod laws;
 pub mod manual;
 pub mod mesh;
+pub mod provenance;
 pub mod shell;
 pub mod softening_bar;
 pub mod solve;

@@ -3,22 +3,21 @@
 use std::sync::Arc;
 
 use fe_core::dof::Dof;
-use fe_core::element::Element;
-use fe_core::grid::GridBuilder;
 use fe_core::kinematics::Solid;
 use fe_core::material::{Material, MaterialError, Operator, PointContext, Response, StateVar};
 use fe_core::model::{Conditions, Model};
 use fe_core::state::StateStore;
 use fe_core::voigt::isotropic;
-use fe_elements::{BandWidth, Hex20, HexRule};
+use fe_elements::HexRule;
 use fe_materials::VonMises;
 use fe_solver::control::StepControl;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings};
 use fe_solver::path::DissipatedEnergy;
 use fe_solver::recorder::{Continue, Recorder, StepView};
 use fe_solver::stage::Stage;
-use fe_tests::conditions::hold;
-use fe_tests::mesh::cells;
+use fe_tests::conditions::{hold, push_faces};
+use fe_tests::cube::cell;
+use fe_tests::mesh::nodes_where;
 use nalgebra::{Matrix6, Vector6};
 
 const YOUNG: f64 = 200_000.0;
@@ -29,45 +28,25 @@ const SIDE: f64 = 10.0;
 
 /// A cube of a law, held as a bar along x.
 fn cube(law: Arc<dyn Material<Solid>>) -> (Model, Conditions) {
-    let mut grid = GridBuilder::new();
-    let side = [0.0, SIDE];
-    grid.add_box("cube", &side, &side, &side);
-    let mesh = grid.finish().unwrap();
-    let (nodes, coords) = cells(&mesh, &mesh.blocks()[0]).next().unwrap();
-    let cube = Hex20::new(nodes, &coords, HexRule::Full, law, BandWidth::CubeRoot).unwrap();
-    let model = Model::new(mesh, vec![Box::new(cube) as Box<dyn Element>]);
+    let model = cell(SIDE, HexRule::Full, law).unwrap();
     let mut conditions = Conditions::new(&model);
-    hold(&model, &mut conditions, &[Dof::Ux], |x| x[0] == 0.0).unwrap();
-    hold(&model, &mut conditions, &[Dof::Uy], |x| x[1] == 0.0).unwrap();
-    hold(&model, &mut conditions, &[Dof::Uz], |x| x[2] == 0.0).unwrap();
+    for (axis, dof) in Dof::DISPLACEMENTS.into_iter().enumerate() {
+        hold(&model, &mut conditions, &[dof], |x| x[axis] == 0.0).unwrap();
+    }
     (model, conditions)
 }
 
-/// The end nodes and the shares of a uniform tension: -1/12 at corners, 1/3 at midsides.
-fn end(model: &Model) -> Vec<(usize, f64)> {
-    let nodes = model.mesh().nodes().iter().enumerate();
-    let end = nodes.filter(|(_, x)| x[0] == SIDE);
-    let middle = |c: f64| c != 0.0 && c != SIDE;
-    end.map(|(n, x)| {
-        let midside = middle(x[1]) || middle(x[2]);
-        (n, if midside { 1.0 / 3.0 } else { -1.0 / 12.0 })
-    })
-    .collect()
-}
-
+/// Under a force of 1 N per unit of the load factor.
 fn pulled(law: Arc<dyn Material<Solid>>) -> (Model, Conditions) {
     let (model, mut conditions) = cube(law);
-    for (node, share) in end(&model) {
-        conditions
-            .add_reference(&model, node, Dof::Ux, share)
-            .unwrap();
-    }
+    let end = |x: [f64; 3]| x[0] == SIDE;
+    push_faces(&model, &mut conditions, end, |n| n / SIDE.powi(2)).unwrap();
     (model, conditions)
 }
 
 fn drawn(law: Arc<dyn Material<Solid>>) -> (Model, Conditions) {
     let (model, mut conditions) = cube(law);
-    for (node, _) in end(&model) {
+    for node in nodes_where(model.mesh(), |x| x[0] == SIDE) {
         conditions.prescribe(&model, node, Dof::Ux, 1.0).unwrap();
     }
     (model, conditions)

@@ -4,15 +4,14 @@ use std::sync::Arc;
 
 use fe_core::assembly::{Assembled, Assembler};
 use fe_core::dof::Dof;
-use fe_core::element::{Element, EvaluationContext};
+use fe_core::element::EvaluationContext;
 use fe_core::energy::Ledger;
-use fe_core::grid::GridBuilder;
 use fe_core::material::Operator;
-use fe_core::model::{Conditions, Model};
+use fe_core::model::Conditions;
 use fe_core::state::StateStore;
-use fe_elements::{BandWidth, Hex20, HexRule};
+use fe_elements::HexRule;
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
-use fe_tests::mesh::cells;
+use fe_tests::cube::cell;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 fn parameters() -> FixedCrackParameters {
@@ -25,14 +24,8 @@ fn parameters() -> FixedCrackParameters {
 /// Energy (N mm) that a cube of side h dissipates, strained uniaxially up to `end` along x turned by an angle (degrees)
 /// from its edges.
 fn dissipated(h: f64, angle: f64, rule: HexRule, end: f64) -> f64 {
-    let mut grid = GridBuilder::new();
-    let side = [0.0, h];
-    grid.add_box("cube", &side, &side, &side);
-    let mesh = grid.finish().unwrap();
     let law = Arc::new(FixedCrack::new(parameters(), None).unwrap());
-    let (nodes, coords) = cells(&mesh, &mesh.blocks()[0]).next().unwrap();
-    let cube = Hex20::new(nodes, &coords, rule, law, BandWidth::Fixed(h)).unwrap();
-    let model = Model::new(mesh, vec![Box::new(cube) as Box<dyn Element>]);
+    let model = cell(h, rule, law).unwrap();
     let conditions = Conditions::new(&model);
     let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), angle.to_radians());
     let axis = turn * Vector3::x();

@@ -2,10 +2,7 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
-use fe_core::voigt::strain_transform;
-
-/// Axis pairs of the local shear components, in Voigt order.
-pub(crate) const SHEAR_PAIRS: [(usize, usize); 3] = [(0, 1), (1, 2), (0, 2)];
+use fe_core::voigt::{SHEAR_PAIRS, strain_transform};
 
 /// Gap of two principal values, relative to the largest, below which they count as equal.
 const EQUAL: f64 = 1e-7;

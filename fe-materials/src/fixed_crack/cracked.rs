@@ -2,14 +2,11 @@
 
 use fe_core::kinematics::Solid;
 use fe_core::material::{MaterialError, Operator, PointContext, Response};
-use fe_core::voigt::{strain_into, strain_transform, stress_out_of};
+use fe_core::voigt::{SHEAR_PAIRS, strain_into, strain_transform, stress_out_of};
 use nalgebra::{Matrix6, Vector6};
 
 use super::shear::{Factor, Retention};
 use super::{FixedCrack, OPERATOR_FLOOR, State, wants_secant};
-
-/// Axis pairs of the local shear components, in Voigt order.
-const SHEAR_PAIRS: [(usize, usize); 3] = [(0, 1), (1, 2), (0, 2)];
 
 impl FixedCrack {
     /// Stress of a cracked point; updates the histories. `onset` tells that the first crack opens in this very

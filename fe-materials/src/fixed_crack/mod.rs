@@ -43,7 +43,7 @@ use fe_core::material::{
     Material, MaterialError, Operator, PointContext, PointReport, Response, StateVar,
 };
 use fe_core::principal::{Principal, principal, principal_of_many};
-use fe_core::voigt::{strain_into, strain_tensor};
+use fe_core::voigt::{strain_components, strain_into, strain_tensor};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 pub use compression_softening::CompressionSoftening;
@@ -354,7 +354,7 @@ impl Material<Solid> for FixedCrack {
             let mut found = [(Vector3::zeros(), Matrix3::zeros()); TOGETHER];
             let mut count = 0;
             for p in (start..end).filter(uncracked) {
-                tensors[count] = tensor_components(&strains[p]);
+                tensors[count] = strain_components(&strains[p]);
                 count += 1;
             }
             principal_of_many(&tensors[..count], &mut found);
@@ -423,11 +423,6 @@ impl Material<Solid> for FixedCrack {
             ..PointReport::default()
         }
     }
-}
-
-/// Tensor components of a strain in Voigt order.
-fn tensor_components(e: &Vector6<f64>) -> Vector6<f64> {
-    Vector6::new(e[0], e[1], e[2], 0.5 * e[3], 0.5 * e[4], 0.5 * e[5])
 }
 
 /// Whether the operator is the secant one.

@@ -3,7 +3,7 @@
 use fe_core::kinematics::Solid;
 use fe_core::material::{MaterialError, Operator, PointContext, Response};
 use fe_core::principal::Principal;
-use fe_core::voigt::{strain_transform, stress_along};
+use fe_core::voigt::{SHEAR_PAIRS, strain_transform, stress_along};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use super::curves::Compression;
@@ -71,7 +71,7 @@ impl FixedCrack {
                     };
                 }
             }
-            for (k, (i, j)) in [(0, 1), (1, 2), (0, 2)].into_iter().enumerate() {
+            for (k, (i, j)) in SHEAR_PAIRS.into_iter().enumerate() {
                 let gap = e[i] - e[j];
                 let scale = e.amax().max(1e-12);
                 // Rotation of the axes: (s_i - s_j)/(2 (e_i - e_j)), its limit for equal strains.

@@ -106,11 +106,9 @@ impl Stage<'_> {
             self.opened = true;
         }
         let here = (lambda, u);
-        let change = self
+        Ok(self
             .ledger
-            .weigh(model, conditions, here, |e| state.trial(e))?;
-        self.weighed = Some(change);
-        Ok(change)
+            .weigh(model, conditions, here, |e| state.trial(e))?)
     }
 
     /// Signs of the symmetric part (K + K^T)/2 of the consistent tangent at `u`: no negative pivots in

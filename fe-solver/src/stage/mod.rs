@@ -73,8 +73,6 @@ pub struct Stage<'m> {
     counters: Counters,
     times: PhaseTimes,
     ledger: Ledger,
-    weighed: Option<Change>,
-    last_change: Option<Change>,
     /// Whether the ledger knows the state from which the stage starts.
     opened: bool,
 }
@@ -115,8 +113,6 @@ impl<'m> Stage<'m> {
             counters: Counters::default(),
             times: PhaseTimes::default(),
             ledger: Ledger::default(),
-            weighed: None,
-            last_change: None,
             opened: false,
         })
     }
@@ -134,8 +130,8 @@ impl<'m> Stage<'m> {
     }
 
     /// Energies of the last accepted step; none before the first step and after a snap.
-    pub const fn last_change(&self) -> Option<Change> {
-        self.last_change
+    pub fn last_change(&self) -> Option<Change> {
+        self.previous.as_ref().map(|_| self.ledger.last_change())
     }
 
     /// Energies up to the accepted state, for the stage that follows.
@@ -361,8 +357,8 @@ impl<'m> Stage<'m> {
     }
 
     /// Accepts displacement, load factor and the trial state of the last evaluation, which has been
-    /// [weighed](Self::weigh). The increment of a `held` step,
-    /// which passed a snap, says nothing about the next one and is forgotten. `signs` are those of the tangent there.
+    /// [weighed](Self::weigh). The increment of a `held` step, which passed a snap, says nothing about the next one and is
+    /// forgotten. `signs` are those of the tangent there.
     pub fn commit(&mut self, u: Vec<f64>, lambda: f64, held: bool, signs: Signs) {
         self.signs = signs;
         let du = u
@@ -377,7 +373,6 @@ impl<'m> Stage<'m> {
         self.largest_reactions = self.largest_reactions.max(self.reactions());
         self.state.commit();
         self.ledger.settle();
-        self.last_change = self.weighed.take().filter(|_| !held);
         self.counters.steps += 1;
     }
 

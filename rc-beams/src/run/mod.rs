@@ -165,8 +165,7 @@ fn run(
         }
         _ => None,
     };
-    let tension =
-        |capacity: &Capacity| watch.largest_tension(outcome.path.len(), capacity.peak + 1);
+    let tension = |capacity: &Capacity| watch.largest_tension(outcome.path.len(), capacity.peak);
     let figures = capacity.and_then(|capacity| {
         let mut verdict = Verdict::of(&outcome.path, &capacity);
         verdict.limit_by_locking(tension(&capacity));
@@ -266,9 +265,7 @@ fn diagnosis(
     (capacity, ratio): (&Capacity, Option<f64>),
     watch: &Watch,
 ) -> Diagnosis {
-    let rows = watch.rows();
-    // Rows before the sheets were bonded do not belong to the path.
-    let rows = &rows[rows.len().saturating_sub(outcome.path.len())..];
+    let rows = watch.rows(outcome.path.len());
     let drop = SheetDrop::of(watch.sheet_layout(), rows, &outcome.path, capacity);
     match drop {
         Some(sheets) if !watch.sheet_layout().zones.is_empty() => {

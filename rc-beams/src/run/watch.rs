@@ -119,16 +119,15 @@ impl Watch {
         self.table.as_mut().map_or(Ok(()), SheetTable::settle)
     }
 
-    /// Measures of the sheets, one row per step under load.
-    pub(super) fn rows(&self) -> &[SheetRow] {
-        &self.rows
+    /// Measures of the sheets along a path of `steps` steps.
+    pub(super) fn rows(&self, steps: usize) -> &[SheetRow] {
+        last(&self.rows, steps)
     }
 
-    /// Largest principal tension of cracked concrete over its strength in the first `steps` of the last `path` steps.
-    pub(super) fn largest_tension(&self, path: usize, steps: usize) -> f64 {
-        let before = self.tension.len().saturating_sub(path);
-        let steps = self.tension.iter().skip(before).take(steps);
-        steps.fold(0.0, |a, b| a.max(*b))
+    /// Largest principal tension of cracked concrete over its strength up to the step `peak` of a path of `steps` steps.
+    pub(super) fn largest_tension(&self, steps: usize, peak: usize) -> f64 {
+        let path = last(&self.tension, steps).iter();
+        path.take(peak + 1).fold(0.0, |a, b| a.max(*b))
     }
 
     pub(super) const fn sheet_layout(&self) -> &SheetLayout {
@@ -160,6 +159,11 @@ impl Watch {
         }
         Energy::new(JOULE * self.external_work, parts)
     }
+}
+
+/// The last rows: those before the sheets were bonded do not belong to the path.
+fn last<T>(rows: &[T], count: usize) -> &[T] {
+    &rows[rows.len().saturating_sub(count)..]
 }
 
 /// Part of every element.

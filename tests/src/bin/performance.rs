@@ -13,14 +13,15 @@ use fe_core::kinematics::Solid;
 use fe_core::material::{Material, Operator};
 use fe_core::state::StateStore;
 use fe_elements::HexRule;
+use fe_materials::VonMises;
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
-use fe_materials::{Elastic, VonMises};
-use fe_solver::control::{OnFailure, StepControl};
+use fe_solver::control::StepControl;
 use fe_solver::linear::{DirectSolver, LinearSolver};
 use fe_solver::newton::{NewtonRaphson, NewtonSettings};
-use fe_solver::secant::{SecantAnderson, SecantSettings};
 use fe_solver::stage::Stage;
 use fe_tests::beam::bare_beam;
+use fe_tests::laws::elastic;
+use fe_tests::provenance::commit;
 use fe_tests::solve::{run, solve};
 
 const COMMAND: &str = "cargo run --release -p fe-tests --bin performance";
@@ -80,12 +81,8 @@ struct Linear {
     reaction: f64,
 }
 
-fn elastic() -> Result<Arc<dyn Material<Solid>>, Box<dyn Error>> {
-    Ok(Arc::new(Elastic::new(30_000.0, 0.2)?))
-}
-
 fn linear(cells: [usize; 3], times: usize) -> Result<Linear, Box<dyn Error>> {
-    let law = elastic()?;
+    let law = elastic(30_000.0, 0.2)?;
     let begin = Instant::now();
     let beam = bare_beam(cells, HexRule::Reduced, &law)?;
     let solved = solve(&beam.model, beam.conditions.clone())?;
@@ -203,20 +200,7 @@ fn iteration_section(text: &mut String) -> Result<(), Box<dyn Error>> {
         ("27", HexRule::Full),
     ] {
         let beam = bare_beam([60, 4, 1], rule, &law)?;
-        let control = StepControl {
-            on_failure: OnFailure::Flag,
-            ..StepControl::new(0.05, 0.3)
-        };
-        let mut driver = SecantAnderson::new(SecantSettings::default());
-        let conditions = beam.conditions.clone();
-        let mut reached = run(
-            &beam.model,
-            conditions,
-            &control,
-            &mut driver,
-            |_| {},
-            |_| {},
-        )?;
+        let mut reached = beam.bent(0.3)?;
         let u = reached.displacement;
         let mut stage = Stage::new(&beam.model, beam.conditions, &mut reached.state, u.clone())?;
         let [secant, force] = [Operator::Secant, Operator::None].map(EvaluationContext::new);
@@ -302,11 +286,7 @@ fn processor() -> String {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    let commit = std::process::Command::new("git")
-        .args(["rev-parse", "--short", "HEAD"])
-        .output()
-        .map(|o| String::from_utf8_lossy(&o.stdout).trim().to_owned())
-        .unwrap_or_default();
+    let commit = commit();
     let mut text = format!(
         "# Time and memory\n\nWritten at commit {commit} by\n\n```console\n$ {COMMAND}\n```\n\non {}. Times are medians on one thread; another \
          machine, or a busy one, gives others. What beams cost is in [beams.md](beams.md).\n\n",

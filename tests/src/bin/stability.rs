@@ -6,8 +6,8 @@
 use std::error::Error;
 use std::fmt::Write;
 use std::path::Path;
-use std::process::Command;
 
+use fe_tests::provenance::commit;
 use fe_tests::stability::{Figure, Method, Outcome, SCENARIOS, Scenario, Target, chart};
 
 const COMMAND: &str = "cargo run --release -p fe-tests --bin stability";
@@ -26,18 +26,6 @@ the beams did.
 
 /// Name of a scenario, with the outcome by every method that applies.
 type Row = (String, Vec<Option<Outcome>>);
-
-/// Short name of the commit that is checked out.
-fn commit() -> String {
-    let output = Command::new("git")
-        .args(["rev-parse", "--short", "HEAD"])
-        .output();
-    let name = output.ok().filter(|o| o.status.success());
-    name.map_or_else(
-        || "unknown".into(),
-        |o| String::from_utf8_lossy(&o.stdout).trim().to_owned(),
-    )
-}
 
 fn figure(figure: &Figure) -> String {
     let target = match figure.target {

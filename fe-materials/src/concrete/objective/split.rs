@@ -1,10 +1,10 @@
 //! The effective stress with its tensile part damaged.
 
-use fe_core::voigt::{strain_transform, stress_transform, stress_voigt};
+use fe_core::voigt::{SHEAR_PAIRS, strain_transform, stress_transform, stress_voigt};
 use nalgebra::{Matrix3, Matrix6, RowVector6, Vector3, Vector6};
 
 use crate::concrete::isochoric::PlasticReturn;
-use crate::concrete::spectral::{SHEAR_PAIRS, from_principal, spin_quotients};
+use crate::concrete::spectral::{from_principal, spin_quotients};
 
 /// Smallest share of the stiffness that the secant operator keeps across a crack. It does not enter the
 /// stress.

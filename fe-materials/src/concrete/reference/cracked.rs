@@ -2,11 +2,10 @@
 
 use fe_core::kinematics::Solid;
 use fe_core::material::{Operator, PointContext, Response};
-use fe_core::voigt::strain_transform;
+use fe_core::voigt::{SHEAR_PAIRS, strain_transform};
 use nalgebra::{Matrix6, Vector6};
 
 use super::{OPERATOR_FLOOR, Reference, State};
-use crate::concrete::spectral::SHEAR_PAIRS;
 
 /// Stress of one axis with its derivative and its secant.
 struct AxisResponse {
