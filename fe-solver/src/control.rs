@@ -165,6 +165,7 @@ impl StepControl {
                         if can_shorten {
                             recorder.note(step, &creation(&change))?;
                             heard.notes.push(creation(&change));
+                            stage.forget_tangent();
                             cut_back(stage);
                             length = shorter;
                             continue;

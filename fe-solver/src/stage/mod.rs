@@ -262,6 +262,11 @@ impl<'m> Stage<'m> {
         self.stable_tangent
     }
 
+    /// The state whose stability was found is not accepted: the factor is that of no accepted state.
+    pub(crate) const fn forget_tangent(&mut self) {
+        self.stable_tangent = false;
+    }
+
     /// Factorises the matrix of the last evaluation that asked for an operator.
     ///
     /// # Errors
