@@ -271,6 +271,17 @@ impl Driver for Automatic {
         result
     }
 
+    /// What steps under imposed displacements depend on. Control under forces is not kept.
+    fn memory(&self) -> Vec<f64> {
+        vec![self.largest]
+    }
+
+    fn recall(&mut self, memory: &[f64]) {
+        if let [largest] = *memory {
+            self.largest = largest;
+        }
+    }
+
     fn notes(&mut self) -> Vec<String> {
         std::mem::take(&mut self.notes)
     }

@@ -13,7 +13,7 @@
 //! Where a step fell short, the next one under the same factor reaches as far as this one should have (Barzilai and
 //! Borwein 1988, with K as the metric):
 //!
-//! alpha' = alpha r . du/(r . du - r' . du), between 1 and 4; 4 where r' . du >= r . du, on the way down.
+//! alpha' = alpha r . du/(r . du - r' . du), between 1 and 2; 2 where r' . du >= r . du, on the way down.
 //!
 //! So a snap runs down to its end as far as equilibrium is missing and no further; an instability that only begins
 //! grows by itself. The end is a state of equilibrium; the states between are not, and are not reported.
@@ -47,7 +47,7 @@ impl Default for DescentSettings {
             rebuild_after: 10,
             overshoot: 0.3,
             least_factor: 0.05,
-            largest_factor: 4.0,
+            largest_factor: 2.0,
         }
     }
 }
@@ -65,18 +65,22 @@ pub(crate) struct Descent {
     residual: Vec<f64>,
     /// Iterations with the present factor.
     age: usize,
+    /// Whether the last step was so short that another operator is needed.
+    stale: bool,
     /// Step factor to begin the next step with.
     reach: f64,
     /// Evaluations so far.
     pub iterations: usize,
+    /// Largest relative residual so far.
+    pub largest: f64,
 }
 
 impl Descent {
-    /// Starts from `free`.
+    /// Starts from `free`; the history there is kept where `passed` tells that the structure passes through it.
     pub(crate) fn start(
         stage: &mut Stage<'_>,
         settings: DescentSettings,
-        free: Vec<f64>,
+        (free, passed): (Vec<f64>, bool),
         lambda: f64,
     ) -> Result<Self, SolverError> {
         let mut descent = Self {
@@ -85,19 +89,41 @@ impl Descent {
             lambda,
             residual: Vec::new(),
             age: 0,
+            stale: false,
             reach: 1.0,
             iterations: 0,
+            largest: 0.0,
         };
         descent.renew(stage)?;
+        if passed {
+            stage.advance();
+        }
         Ok(descent)
+    }
+
+    /// Residual at `free` with the given operator.
+    fn evaluate(
+        &mut self,
+        stage: &mut Stage<'_>,
+        free: &[f64],
+        operator: Operator,
+    ) -> Result<Vec<f64>, SolverError> {
+        self.iterations += 1;
+        let u = stage.compose(free, self.lambda);
+        stage.residual(&u, self.lambda, &EvaluationContext::new(operator))
     }
 
     /// Evaluates and factorises at the present iterate.
     fn renew(&mut self, stage: &mut Stage<'_>) -> Result<(), SolverError> {
-        let u = stage.compose(&self.free, self.lambda);
-        let operator = EvaluationContext::new(Operator::Secant);
-        self.residual = stage.residual(&u, self.lambda, &operator)?;
-        self.iterations += 1;
+        let free = std::mem::take(&mut self.free);
+        self.residual = self.evaluate(stage, &free, Operator::Secant)?;
+        self.free = free;
+        self.factorise(stage)
+    }
+
+    /// Factorises the operator of the last evaluation.
+    fn factorise(&mut self, stage: &mut Stage<'_>) -> Result<(), SolverError> {
+        self.stale = false;
         self.age = 0;
         self.reach = 1.0;
         stage.factorise()
@@ -113,19 +139,29 @@ impl Descent {
         log: &mut IterationLog<'_>,
     ) -> Result<Residual, SolverError> {
         let mut size = stage.measure(&self.residual);
+        self.largest = self.largest.max(size.relative);
         for _ in 0..steps {
             if size.relative <= target || !size.relative.is_finite() {
                 break;
             }
-            let alpha = self.step(stage)?;
-            size = stage.measure(&self.residual);
-            log(&size, alpha)?;
-            stage.advance();
-            if alpha < STALE || self.age >= self.settings.rebuild_after {
+            if self.is_due() {
+                self.factorise(stage)?;
+            } else if self.stale {
                 self.renew(stage)?;
             }
+            let alpha = self.step(stage)?;
+            size = stage.measure(&self.residual);
+            self.largest = self.largest.max(size.relative);
+            log(&size, alpha)?;
+            stage.advance();
+            self.stale = alpha < STALE;
         }
         Ok(size)
+    }
+
+    /// Whether the present factor has served its time: the last step with it evaluates the next operator.
+    const fn is_due(&self) -> bool {
+        self.age >= self.settings.rebuild_after
     }
 
     /// Factor to begin the next step with, after one by `alpha` along which the residual fell from `slope` to `there`.
@@ -144,7 +180,11 @@ impl Descent {
         stage.precondition(&mut du)?;
         self.age += 1;
         let slope = dot(&self.residual, &du);
-        let force = EvaluationContext::new(Operator::None);
+        let operator = if self.is_due() {
+            Operator::Secant
+        } else {
+            Operator::None
+        };
         let mut alpha = self.reach;
         loop {
             let trial: Vec<f64> = self
@@ -153,9 +193,7 @@ impl Descent {
                 .zip(&du)
                 .map(|(u, d)| u + alpha * d)
                 .collect();
-            let u = stage.compose(&trial, self.lambda);
-            let residual = stage.residual(&u, self.lambda, &force)?;
-            self.iterations += 1;
+            let residual = self.evaluate(stage, &trial, operator)?;
             let there = dot(&residual, &du);
             if there >= -self.settings.overshoot * slope || alpha <= self.settings.least_factor {
                 (self.free, self.residual) = (trial, residual);

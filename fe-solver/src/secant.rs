@@ -42,11 +42,13 @@ impl Default for SecantSettings {
 /// From the extrapolated displacement one factor serves the iterations of the step, one force evaluation and one
 /// back-substitution each, no line search: that of the tangent at the accepted state, left by the count of its
 /// negative pivots, where it is positive definite; elsewhere, and where that is slow, that of the positive-definite
-/// secant operator of the laws. New cracks are latched until the step ends.
+/// secant operator of the laws. New cracks are latched until the step ends. After a snap, whose increment says nothing about
+/// the next one, that tangent predicts.
 ///
 /// Where no equilibrium lies near (a crack snaps, a sheet comes off), the load factor is held and a
 /// [descent](crate::descent) leads to the next one: at once where the residual says that little moves and little load
-/// is lost (no step is short enough to avoid the snap of a single point), else when steps cannot be cut any further.
+/// is lost (no step is short enough to avoid the snap of a single point), else when steps cannot be cut any further. It
+/// begins where the iteration came nearest, and gives over to it once the residual has fallen well below the largest on the way.
 #[derive(Debug, Clone, Default)]
 pub struct SecantAnderson {
     settings: SecantSettings,
@@ -54,10 +56,23 @@ pub struct SecantAnderson {
 
 /// Result of one solve at a fixed load factor.
 struct Solve {
+    /// The last iterate, if it converged, otherwise the best one.
     free: Vec<f64>,
+    /// Relative residual there.
+    relative: f64,
     /// Residual of the last evaluation, if it was that of `free`: the solve converged.
     converged: Option<Residual>,
     iterations: usize,
+}
+
+/// Where a solve starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Start {
+    /// From the prediction of a step, with the tangent at the accepted state if the stage holds it and it is positive
+    /// definite, otherwise with the secant operator there.
+    Prediction,
+    /// From within a descent, with its factor.
+    Descent,
 }
 
 /// End of a snap.
@@ -69,10 +84,14 @@ struct Snap {
 
 /// Relative residual below which a snap counts as small, and a descent gives over to the accelerated iteration.
 const NEAR: f64 = 1e-2;
-/// Iterations of a descent before that, and from one such attempt to the next.
-const LEG: usize = 15;
+/// Iterations of a descent from one look at that to the next.
+const LEG: usize = 5;
+/// Share of the largest residual of a snap below which it is coming to its end.
+const FALLEN: f64 = 0.3;
+/// Share of the residual from which the accelerated iteration failed last, below which it is tried again.
+const AGAIN: f64 = 0.5;
 /// Iterations without halving the residual after which a solve this near has stalled: a snap is ahead.
-const STALL: usize = 8;
+const STALL: usize = 5;
 
 impl SecantAnderson {
     /// A driver with the given settings.
@@ -80,12 +99,11 @@ impl SecantAnderson {
         Self { settings }
     }
 
-    /// Iterates from `free` at load factor `lambda`. The first factor is that of the tangent at the accepted state
-    /// if the stage holds it and it is positive definite, otherwise the secant operator at the first iterate.
+    /// Iterates from `free` at load factor `lambda`.
     fn solve(
         &self,
         stage: &mut Stage<'_>,
-        mut free: Vec<f64>,
+        (mut free, start): (Vec<f64>, Start),
         lambda: f64,
         criterion: f64,
         log: &mut IterationLog<'_>,
@@ -98,7 +116,7 @@ impl SecantAnderson {
         let mut halved = (f64::INFINITY, 0_usize);
         loop {
             let rebuild = match iterations {
-                0 => !stage.holds_stable_tangent(),
+                0 => start == Start::Prediction && !stage.holds_stable_tangent(),
                 n => n.is_multiple_of(self.settings.rebuild_after),
             };
             let u = stage.compose(&free, lambda);
@@ -109,6 +127,7 @@ impl SecantAnderson {
             if size.relative <= criterion {
                 return Ok(Solve {
                     free,
+                    relative: size.relative,
                     converged: Some(size),
                     iterations,
                 });
@@ -122,9 +141,10 @@ impl SecantAnderson {
             let near = best.as_ref().is_some_and(|(b, _)| *b < NEAR);
             let stalled = near && iterations >= halved.1 + STALL;
             if stalled || iterations >= self.settings.max_iterations || !size.relative.is_finite() {
-                let free = best.map_or(free, |(_, free)| free);
+                let (relative, free) = best.unwrap_or((size.relative, free));
                 return Ok(Solve {
                     free,
+                    relative,
                     converged: None,
                     iterations,
                 });
@@ -141,7 +161,7 @@ impl SecantAnderson {
     }
 
     /// First iterate: the accepted displacement extrapolated along its last increment, or, without one, a linear
-    /// solve from it.
+    /// solve from it: with the tangent there if the stage holds it and it is positive definite, else with the secant operator.
     pub(crate) fn predict(stage: &mut Stage<'_>, step: f64) -> Result<Vec<f64>, SolverError> {
         let accepted = stage.displacement();
         if let Some((du, dl)) = stage.previous() {
@@ -154,9 +174,11 @@ impl SecantAnderson {
             return Ok(stage.restrict(&at));
         }
         let accepted = accepted.to_vec();
-        let operator = EvaluationContext::new(Operator::Secant);
-        stage.residual(&accepted, stage.lambda() + step, &operator)?;
-        stage.factorise()?;
+        if !stage.holds_stable_tangent() {
+            let operator = EvaluationContext::new(Operator::Secant);
+            stage.residual(&accepted, stage.lambda() + step, &operator)?;
+            stage.factorise()?;
+        }
         let mut increment = stage.reference_load();
         for q in &mut increment {
             *q *= step;
@@ -167,26 +189,27 @@ impl SecantAnderson {
         Ok(free)
     }
 
-    /// From the accepted displacement to the next equilibrium at a held load factor: a descent that the accelerated
-    /// iteration ends once it is near. Given up after the iterations of a small snap, or once it has
-    /// lost load, unless it is the last resort.
+    /// From `free`, whose history is kept, to the next equilibrium at a held load factor: a descent that the accelerated
+    /// iteration ends. Given up after the iterations of a small snap, or once it has lost load, unless it is the last
+    /// resort.
     fn pass_snap(
         &self,
         stage: &mut Stage<'_>,
-        lambda: f64,
+        (start, lambda): ((Vec<f64>, bool), f64),
         criterion: f64,
         last_resort: bool,
         log: &mut IterationLog<'_>,
     ) -> Result<Snap, SolverError> {
-        let free = stage.restrict(stage.displacement());
         let settings = self.settings.descent;
         let limit = if last_resort {
             settings.max_iterations
         } else {
             settings.max_iterations.min(self.settings.small_snap)
         };
-        let mut descent = Descent::start(stage, settings, free, lambda)?;
+        let mut descent = Descent::start(stage, settings, start, lambda)?;
         let mut spent = 0;
+        let mut largest = 0.0_f64;
+        let mut near = NEAR;
         loop {
             let residual = descent.run(stage, criterion, LEG, log)?;
             let iterations = spent + descent.iterations;
@@ -200,10 +223,13 @@ impl SecantAnderson {
                     iterations,
                 });
             }
-            if residual.relative > NEAR {
+            largest = largest.max(descent.largest);
+            if residual.relative > near.min(FALLEN * largest) {
                 continue;
             }
-            let solve = self.solve(stage, descent.free.clone(), lambda, criterion, log)?;
+            near = AGAIN * residual.relative;
+            let start = (descent.free.clone(), Start::Descent);
+            let solve = self.solve(stage, start, lambda, criterion, log)?;
             spent = iterations + solve.iterations;
             if let Some(residual) = solve.converged {
                 return Ok(Snap {
@@ -212,7 +238,7 @@ impl SecantAnderson {
                     iterations: spent,
                 });
             }
-            descent = Descent::start(stage, settings, descent.free, lambda)?;
+            descent = Descent::start(stage, settings, (descent.free, false), lambda)?;
         }
     }
 
@@ -246,25 +272,30 @@ impl Driver for SecantAnderson {
             last_resort,
         } = request;
         let lambda = stage.lambda() + length;
-        let first = Self::predict(stage, length)?;
+        let first = (Self::predict(stage, length)?, Start::Prediction);
         let mut solve = self.solve(stage, first, lambda, criterion, log)?;
         let mut iterations = solve.iterations;
-        let mut residual = match solve.converged {
-            Some(residual) => residual,
-            None => Self::check(stage, &solve.free, lambda)?,
+        let held = solve.converged.is_none() && (last_resort || solve.relative < NEAR);
+        let snap = if held {
+            let start = if solve.relative < NEAR {
+                (solve.free.clone(), true)
+            } else {
+                (stage.restrict(stage.displacement()), false)
+            };
+            Some(self.pass_snap(stage, (start, lambda), criterion, last_resort, log)?)
+        } else {
+            None
         };
-        let held = residual.relative > criterion && (last_resort || residual.relative < NEAR);
-        if held {
-            let nearest = (residual.relative, solve.free);
-            let snap = self.pass_snap(stage, lambda, criterion, last_resort, log)?;
-            (solve.free, residual) = (snap.free, snap.residual);
-            iterations += snap.iterations;
-            if residual.relative > criterion && nearest.0 < residual.relative {
-                // The snap was not passed, and the best iterate of the regular solve is nearer.
-                solve.free = nearest.1;
-                residual = Self::check(stage, &solve.free, lambda)?;
+        iterations += snap.as_ref().map_or(0, |snap| snap.iterations);
+        let residual = match (snap, solve.converged) {
+            // A snap that was not passed may end farther from equilibrium than the regular solve did.
+            (Some(s), _) if s.residual.relative <= criterion.max(solve.relative) => {
+                solve.free = s.free;
+                s.residual
             }
-        }
+            (None, Some(residual)) => residual,
+            _ => Self::check(stage, &solve.free, lambda)?,
+        };
         // A snap that loses load is placed by shorter steps before it is passed.
         let placed = !held || last_resort || Self::loss(stage) < DROP_FALL;
         Ok(Attempt {

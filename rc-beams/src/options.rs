@@ -234,6 +234,8 @@ pub enum Driver {
     /// Secant operator with Anderson acceleration
     #[default]
     Secant,
+    /// The same in steps limited by events: a snap, a fall of the load or a loss of stability is met in the shortest steps
+    Automatic,
     /// Newton-Raphson, tangent renewed at every iteration
     Newton,
     /// Newton-Raphson, tangent kept while it serves

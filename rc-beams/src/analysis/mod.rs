@@ -39,7 +39,7 @@ pub struct Stepping {
 /// Longest step over the first one.
 const LONGEST: f64 = 2.0;
 /// First step over the shortest one.
-const SHORTEST: f64 = 16.0;
+const SHORTEST: f64 = 4.0;
 /// Steps with fewer iterations are followed by longer ones.
 const EASY: usize = 20;
 /// How much longer.

@@ -1,6 +1,7 @@
 //! From the options of the command line to a model, steps and a driver.
 
 use fe_elements::HexRule;
+use fe_solver::automatic::Automatic;
 use fe_solver::driver::Driver;
 use fe_solver::error::SolverError;
 use fe_solver::explicit::Explicit;
@@ -17,12 +18,11 @@ use crate::results::hash::fingerprint;
 use crate::results::summary::Setup;
 use crate::spec::Specimen;
 
-/// First step of the load stage (mm of imposed deflection). Steps from 0.006 to 0.06 mm put the peak of
-/// A-SO3-1 between 138.5 and 140.7 kN, with the characteristic preset between 148.7 and 155.9 kN: the path
-/// passes bifurcations, and the step decides which branch it takes.
-const FIRST_STEP_MM: f64 = 0.02;
+/// First step of the load stage (mm of imposed deflection). The path passes bifurcations, and the step decides which branch
+/// it takes: `--band` tells how far apart they lie.
+const FIRST_STEP_MM: f64 = 0.01;
 /// Share of the deflection reached that a step may take: beams that yield are followed in longer steps.
-const LONGEST_SHARE: f64 = 0.02;
+const LONGEST_SHARE: f64 = 0.01;
 /// Without a final deflection the path is followed past its peak, at most to this multiple of the
 /// deflection that the source imposed.
 const FARTHEST: f64 = 4.0;
@@ -82,6 +82,7 @@ pub(super) fn driver(
     let newton = NewtonSettings::default();
     Ok(match options.driver {
         options::Driver::Secant => Box::new(SecantAnderson::default()),
+        options::Driver::Automatic => Box::new(Automatic::new(newton)),
         options::Driver::Explicit => Box::new(Explicit::default()),
         options::Driver::Implex => Box::new(Implex),
         options::Driver::Viscous => Box::new(viscous(newton).map_err(|e| RunError::Solver {
