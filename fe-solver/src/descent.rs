@@ -71,16 +71,16 @@ pub(crate) struct Descent {
     reach: f64,
     /// Evaluations so far.
     pub iterations: usize,
-    /// Largest relative residual so far.
+    /// Largest relative residual from which a step was taken so far.
     pub largest: f64,
 }
 
 impl Descent {
-    /// Starts from `free`; the history there is kept where `passed` tells that the structure passes through it.
+    /// Starts from `free`.
     pub(crate) fn start(
         stage: &mut Stage<'_>,
         settings: DescentSettings,
-        (free, passed): (Vec<f64>, bool),
+        free: Vec<f64>,
         lambda: f64,
     ) -> Result<Self, SolverError> {
         let mut descent = Self {
@@ -95,9 +95,6 @@ impl Descent {
             largest: 0.0,
         };
         descent.renew(stage)?;
-        if passed {
-            stage.advance();
-        }
         Ok(descent)
     }
 
@@ -139,8 +136,8 @@ impl Descent {
         log: &mut IterationLog<'_>,
     ) -> Result<Residual, SolverError> {
         let mut size = stage.measure(&self.residual);
-        self.largest = self.largest.max(size.relative);
         for _ in 0..steps {
+            self.largest = self.largest.max(size.relative);
             if size.relative <= target || !size.relative.is_finite() {
                 break;
             }
@@ -151,7 +148,6 @@ impl Descent {
             }
             let alpha = self.step(stage)?;
             size = stage.measure(&self.residual);
-            self.largest = self.largest.max(size.relative);
             log(&size, alpha)?;
             stage.advance();
             self.stale = alpha < STALE;

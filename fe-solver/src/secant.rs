@@ -42,13 +42,14 @@ impl Default for SecantSettings {
 /// From the extrapolated displacement one factor serves the iterations of the step, one force evaluation and one
 /// back-substitution each, no line search: that of the tangent at the accepted state, left by the count of its
 /// negative pivots, where it is positive definite; elsewhere, and where that is slow, that of the positive-definite
-/// secant operator of the laws. New cracks are latched until the step ends. After a snap, whose increment says nothing about
-/// the next one, that tangent predicts.
+/// secant operator of the laws. New cracks are latched until the step ends. After a snap, whose increment says nothing
+/// about the next one, that tangent predicts.
 ///
 /// Where no equilibrium lies near (a crack snaps, a sheet comes off), the load factor is held and a
 /// [descent](crate::descent) leads to the next one: at once where the residual says that little moves and little load
 /// is lost (no step is short enough to avoid the snap of a single point), else when steps cannot be cut any further. It
-/// begins where the iteration came nearest, and gives over to it once the residual has fallen well below the largest on the way.
+/// begins where the iteration came nearest, and gives over to it once the residual has fallen well below the largest on
+/// the way.
 #[derive(Debug, Clone, Default)]
 pub struct SecantAnderson {
     settings: SecantSettings,
@@ -103,7 +104,8 @@ impl SecantAnderson {
     fn solve(
         &self,
         stage: &mut Stage<'_>,
-        (mut free, start): (Vec<f64>, Start),
+        mut free: Vec<f64>,
+        start: Start,
         lambda: f64,
         criterion: f64,
         log: &mut IterationLog<'_>,
@@ -189,13 +191,14 @@ impl SecantAnderson {
         Ok(free)
     }
 
-    /// From `free`, whose history is kept, to the next equilibrium at a held load factor: a descent that the accelerated
-    /// iteration ends. Given up after the iterations of a small snap, or once it has lost load, unless it is the last
-    /// resort.
+    /// To the next equilibrium at a held load factor, from the iterate that came `nearest`, whose history is kept, or without
+    /// one from the accepted displacement: a descent that the accelerated iteration ends. Given up after the iterations of a
+    /// small snap, or once it has lost load, unless it is the last resort.
     fn pass_snap(
         &self,
         stage: &mut Stage<'_>,
-        (start, lambda): ((Vec<f64>, bool), f64),
+        nearest: Option<Vec<f64>>,
+        lambda: f64,
         criterion: f64,
         last_resort: bool,
         log: &mut IterationLog<'_>,
@@ -206,7 +209,12 @@ impl SecantAnderson {
         } else {
             settings.max_iterations.min(self.settings.small_snap)
         };
-        let mut descent = Descent::start(stage, settings, start, lambda)?;
+        let passed = nearest.is_some();
+        let free = nearest.unwrap_or_else(|| stage.restrict(stage.displacement()));
+        let mut descent = Descent::start(stage, settings, free, lambda)?;
+        if passed {
+            stage.advance();
+        }
         let mut spent = 0;
         let mut largest = 0.0_f64;
         let mut near = NEAR;
@@ -228,8 +236,8 @@ impl SecantAnderson {
                 continue;
             }
             near = AGAIN * residual.relative;
-            let start = (descent.free.clone(), Start::Descent);
-            let solve = self.solve(stage, start, lambda, criterion, log)?;
+            let free = descent.free.clone();
+            let solve = self.solve(stage, free, Start::Descent, lambda, criterion, log)?;
             spent = iterations + solve.iterations;
             if let Some(residual) = solve.converged {
                 return Ok(Snap {
@@ -238,7 +246,7 @@ impl SecantAnderson {
                     iterations: spent,
                 });
             }
-            descent = Descent::start(stage, settings, (descent.free, false), lambda)?;
+            descent = Descent::start(stage, settings, descent.free, lambda)?;
         }
     }
 
@@ -272,17 +280,13 @@ impl Driver for SecantAnderson {
             last_resort,
         } = request;
         let lambda = stage.lambda() + length;
-        let first = (Self::predict(stage, length)?, Start::Prediction);
-        let mut solve = self.solve(stage, first, lambda, criterion, log)?;
+        let first = Self::predict(stage, length)?;
+        let mut solve = self.solve(stage, first, Start::Prediction, lambda, criterion, log)?;
         let mut iterations = solve.iterations;
         let held = solve.converged.is_none() && (last_resort || solve.relative < NEAR);
         let snap = if held {
-            let start = if solve.relative < NEAR {
-                (solve.free.clone(), true)
-            } else {
-                (stage.restrict(stage.displacement()), false)
-            };
-            Some(self.pass_snap(stage, (start, lambda), criterion, last_resort, log)?)
+            let nearest = (solve.relative < NEAR).then(|| solve.free.clone());
+            Some(self.pass_snap(stage, nearest, lambda, criterion, last_resort, log)?)
         } else {
             None
         };

@@ -18,8 +18,8 @@ use crate::results::hash::fingerprint;
 use crate::results::summary::Setup;
 use crate::spec::Specimen;
 
-/// First step of the load stage (mm of imposed deflection). The path passes bifurcations, and the step decides which branch
-/// it takes: `--band` tells how far apart they lie.
+/// First step of the load stage (mm of imposed deflection). The path passes bifurcations, and the step is among what decides
+/// which branch it takes: `--band` tells what half the steps change.
 const FIRST_STEP_MM: f64 = 0.01;
 /// Share of the deflection reached that a step may take: beams that yield are followed in longer steps.
 const LONGEST_SHARE: f64 = 0.01;
