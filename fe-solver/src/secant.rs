@@ -66,14 +66,13 @@ struct Solve {
     iterations: usize,
 }
 
-/// Where a solve starts.
+/// The operator with which a solve starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Start {
-    /// From the prediction of a step, with the tangent at the accepted state if the stage holds it and it is positive
-    /// definite, otherwise with the secant operator there.
-    Prediction,
-    /// From within a descent, with its factor.
-    Descent,
+    /// Another one, evaluated with the first residual.
+    Evaluated,
+    /// That of the present factor.
+    AtHand,
 }
 
 /// End of a snap.
@@ -118,7 +117,7 @@ impl SecantAnderson {
         let mut halved = (f64::INFINITY, 0_usize);
         loop {
             let rebuild = match iterations {
-                0 => start == Start::Prediction && !stage.holds_stable_tangent(),
+                0 => start == Start::Evaluated,
                 n => n.is_multiple_of(self.settings.rebuild_after),
             };
             let u = stage.compose(&free, lambda);
@@ -162,8 +161,22 @@ impl SecantAnderson {
         }
     }
 
-    /// First iterate: the accepted displacement extrapolated along its last increment, or, without one, a linear
-    /// solve from it: with the tangent there if the stage holds it and it is positive definite, else with the secant operator.
+    /// First iterate, and the operator to go on with: the accepted displacement extrapolated along its last increment, or,
+    /// without one, a linear solve from it. The operator is the tangent there if the stage holds it and it is positive
+    /// definite, else the secant operator: that of the linear solve, or another one.
+    fn start(stage: &mut Stage<'_>, step: f64) -> Result<(Vec<f64>, Start), SolverError> {
+        let extrapolates = stage.previous().is_some();
+        let at_hand = stage.holds_stable_tangent() || !extrapolates;
+        let first = Self::predict(stage, step)?;
+        let start = if at_hand {
+            Start::AtHand
+        } else {
+            Start::Evaluated
+        };
+        Ok((first, start))
+    }
+
+    /// The first iterate of [`Self::start`].
     pub(crate) fn predict(stage: &mut Stage<'_>, step: f64) -> Result<Vec<f64>, SolverError> {
         let accepted = stage.displacement();
         if let Some((du, dl)) = stage.previous() {
@@ -237,7 +250,7 @@ impl SecantAnderson {
             }
             near = AGAIN * residual.relative;
             let free = descent.free.clone();
-            let solve = self.solve(stage, free, Start::Descent, lambda, criterion, log)?;
+            let solve = self.solve(stage, free, Start::AtHand, lambda, criterion, log)?;
             spent = iterations + solve.iterations;
             if let Some(residual) = solve.converged {
                 return Ok(Snap {
@@ -280,8 +293,8 @@ impl Driver for SecantAnderson {
             last_resort,
         } = request;
         let lambda = stage.lambda() + length;
-        let first = Self::predict(stage, length)?;
-        let mut solve = self.solve(stage, first, Start::Prediction, lambda, criterion, log)?;
+        let (first, start) = Self::start(stage, length)?;
+        let mut solve = self.solve(stage, first, start, lambda, criterion, log)?;
         let mut iterations = solve.iterations;
         let held = solve.converged.is_none() && (last_resort || solve.relative < NEAR);
         let snap = if held {

@@ -1,20 +1,30 @@
 //! Sparse direct solvers on one reused analysis.
 //!
-//! Policy: L L^T while the matrix is positive definite; L B L^T (Bunch and Kaufman 1977, pivoting inside a
-//! supernode) when it is not, which also counts the negative pivots; L U for unsymmetric values. Equations
-//! are taken in the order they are numbered, along the longest axis of the mesh: as little fill as a
-//! fill-reducing ordering on slender meshes. One thread, so results are bit-identical.
+//! Policy: L L^T while the matrix is positive definite; L B L^T (Bunch and Kaufman 1977, pivoting inside a front) when
+//! it is not, which also counts the negative pivots; L U, pivoting inside a front, for unsymmetric values. Multifrontal
+//! (Duff and Reid 1983) on dense kernels; independent subtrees in parallel, with the same bits for any number of threads.
 
+mod blocks;
+mod dense;
+mod elimination;
 mod error;
-mod general;
-mod symmetric;
+mod factor;
+mod fronts;
+mod graph;
+mod order;
+mod probe;
+mod tree;
+mod triangular;
 
 pub use error::LinearError;
+pub use order::Ordering;
 
 use fe_core::sparsity::{MatrixValues, Sparsity};
 
-use general::GeneralFactor;
-use symmetric::SymmetricFactor;
+use elimination::Kind;
+use factor::Factor;
+use fronts::Fronts;
+use graph::Graph;
 
 /// Relative residual above which a solution is refined once.
 const REFINE_ABOVE: f64 = 1e-10;
@@ -33,9 +43,11 @@ pub struct LinearStats {
     pub equations: usize,
     /// Stored entries of the lower triangle.
     pub nnz_matrix: usize,
-    /// Stored entries of the symmetric factor.
+    /// Order of elimination.
+    pub ordering: Ordering,
+    /// Stored entries of the symmetric factor, zeros included.
     pub nnz_factor: usize,
-    /// Multiplications and additions of a factorisation L L^T.
+    /// Multiplications and additions of a factorisation L L^T that stores no zeros.
     pub factor_flops: f64,
     /// Factorisations L L^T.
     pub cholesky: usize,
@@ -86,23 +98,21 @@ pub trait LinearSolver {
     fn stats(&self) -> &LinearStats;
 }
 
-/// Which factor is current.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum Current {
-    #[default]
-    None,
-    Symmetric,
-    General,
+/// What is known of a pattern.
+#[derive(Debug)]
+struct Analysis {
+    pattern: Sparsity,
+    fronts: Fronts,
 }
 
-/// [`LinearSolver`] on faer's supernodal kernels.
+/// [`LinearSolver`] by fronts.
 #[derive(Debug, Default)]
 pub struct DirectSolver {
-    pattern: Option<Sparsity>,
-    symmetric: Option<SymmetricFactor>,
-    general: Option<GeneralFactor>,
+    analysis: Option<Analysis>,
+    factor: Option<Factor>,
     values: MatrixValues,
-    current: Current,
+    /// Whether the factor is that of `values`.
+    current: bool,
     /// The last symmetric matrix was indefinite: start with L B L^T.
     indefinite: bool,
     stats: LinearStats,
@@ -118,56 +128,58 @@ impl DirectSolver {
 
 impl LinearSolver for DirectSolver {
     fn analyze(&mut self, pattern: &Sparsity) -> Result<(), LinearError> {
-        let symmetric = SymmetricFactor::analyze(pattern)?;
+        (self.analysis, self.factor, self.current) = (None, None, false);
+        let graph = Graph::new(pattern);
+        let (ordering, tree) = order::choose(&graph)?;
+        let fronts = Fronts::new(pattern, &graph, &tree).ok_or(LinearError::OutOfMemory)?;
         self.stats = LinearStats {
             equations: pattern.len(),
             nnz_matrix: pattern.nnz(),
-            nnz_factor: symmetric.nnz(),
-            factor_flops: symmetric.flops(),
+            ordering,
+            nnz_factor: fronts.entries_of_factor(),
+            factor_flops: tree.flops(&graph),
             ..LinearStats::default()
         };
-        self.symmetric = Some(symmetric);
-        self.general = None;
-        self.current = Current::None;
-        self.pattern = Some(pattern.clone());
+        self.factor = Some(Factor::new(&fronts)?);
+        self.analysis = Some(Analysis {
+            pattern: pattern.clone(),
+            fronts,
+        });
         Ok(())
     }
 
     fn factorize(&mut self, values: &MatrixValues) -> Result<Inertia, LinearError> {
-        self.current = Current::None;
-        let (Some(pattern), Some(symmetric)) = (&self.pattern, &mut self.symmetric) else {
+        self.current = false;
+        let (Some(analysis), Some(factor)) = (&self.analysis, &mut self.factor) else {
             return Err(LinearError::NotAnalysed);
         };
-        if let Some(k) = values
-            .lower
-            .iter()
-            .chain(&values.upper)
-            .position(|v| !v.is_finite())
-        {
-            return Err(LinearError::NotFinite { position: k });
-        }
         self.values.clone_from(values);
-        if !values.is_symmetric() {
-            let general = match &mut self.general {
-                Some(general) => general,
-                none => none.insert(GeneralFactor::analyze(pattern)?),
-            };
-            general.factorize(values)?;
+        let Analysis { pattern, fronts } = analysis;
+        let diagonal = &pattern.col_ptr()[..pattern.len()];
+        let result = if values.is_symmetric() {
+            let indefinite = self.indefinite;
+            decompose_symmetric(
+                factor,
+                (fronts, values, diagonal),
+                indefinite,
+                &mut self.stats,
+            )
+        } else {
             self.stats.general += 1;
-            self.current = Current::General;
-            return Ok(Inertia::default());
+            factor
+                .factorize(fronts, values, diagonal, Kind::General)
+                .and_then(|_| probe::regular(values, diagonal, |x| factor.solve(fronts, x)))
+                .map(|()| 0)
+        };
+        // A value that is not finite makes a pivot so.
+        let negative = result.map_err(|error| match not_finite(values) {
+            Some(position) => LinearError::NotFinite { position },
+            None => error,
+        })?;
+        if values.is_symmetric() {
+            self.indefinite = negative > 0;
         }
-        if !self.indefinite {
-            self.stats.cholesky += 1;
-            if symmetric.cholesky(values)? {
-                self.current = Current::Symmetric;
-                return Ok(Inertia::default());
-            }
-        }
-        self.stats.indefinite += 1;
-        let negative = symmetric.bunch_kaufman(values)?;
-        self.indefinite = negative > 0;
-        self.current = Current::Symmetric;
+        self.current = true;
         Ok(Inertia { negative })
     }
 
@@ -177,10 +189,10 @@ impl LinearSolver for DirectSolver {
         right.extend_from_slice(rhs);
         residual.resize(rhs.len(), 0.0);
         self.precondition(rhs)?;
-        let Some(pattern) = &self.pattern else {
+        let Some(analysis) = &self.analysis else {
             return Err(LinearError::NotAnalysed);
         };
-        self.values.multiply(pattern, rhs, &mut residual);
+        self.values.multiply(&analysis.pattern, rhs, &mut residual);
         for (r, b) in residual.iter_mut().zip(right.iter()) {
             *r = b - *r;
         }
@@ -197,11 +209,10 @@ impl LinearSolver for DirectSolver {
     }
 
     fn precondition(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
-        match (self.current, &mut self.symmetric, &mut self.general) {
-            (Current::Symmetric, Some(factor), _) => factor.solve(rhs),
-            (Current::General, _, Some(factor)) => factor.solve(rhs),
-            (_, None, _) => return Err(LinearError::NotAnalysed),
-            _ => return Err(LinearError::NotFactorized),
+        match (&self.analysis, &mut self.factor) {
+            (Some(_), Some(_)) if !self.current => return Err(LinearError::NotFactorized),
+            (Some(analysis), Some(factor)) => factor.solve(&analysis.fronts, rhs),
+            _ => return Err(LinearError::NotAnalysed),
         }
         self.stats.solves += 1;
         Ok(())
@@ -210,6 +221,30 @@ impl LinearSolver for DirectSolver {
     fn stats(&self) -> &LinearStats {
         &self.stats
     }
+}
+
+/// L L^T, or L B L^T if the matrix is or is expected to be `indefinite`; returns the number of negative pivots.
+fn decompose_symmetric(
+    factor: &mut Factor,
+    (fronts, values, diagonal): (&Fronts, &MatrixValues, &[usize]),
+    indefinite: bool,
+    stats: &mut LinearStats,
+) -> Result<usize, LinearError> {
+    if !indefinite {
+        stats.cholesky += 1;
+        if factor.factorize(fronts, values, diagonal, Kind::Definite)? {
+            return Ok(0);
+        }
+    }
+    stats.indefinite += 1;
+    factor.factorize(fronts, values, diagonal, Kind::Indefinite)?;
+    Ok(factor.negative(fronts))
+}
+
+/// Position of a value that is not finite.
+fn not_finite(values: &MatrixValues) -> Option<usize> {
+    let all = values.lower.iter().chain(&values.upper);
+    all.copied().position(|v| !v.is_finite())
 }
 
 fn norm(x: &[f64]) -> f64 {

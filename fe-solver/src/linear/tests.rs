@@ -3,7 +3,7 @@
 use fe_core::sparsity::{MatrixValues, Sparsity};
 use nalgebra::{DMatrix, DVector};
 
-use super::{DirectSolver, LinearError, LinearSolver};
+use super::{DirectSolver, LinearError, LinearSolver, Ordering};
 
 /// A small deterministic generator.
 struct Random(u64);
@@ -181,4 +181,93 @@ fn no_equations_and_no_factor_are_not_a_panic() {
     solver.analyze(&p).unwrap();
     solver.factorize(&MatrixValues::default()).unwrap();
     solver.solve_in_place(&mut []).unwrap();
+}
+
+/// Equations on the points of a grid, coupled within its cells; numbered along x.
+fn grid(cells: [u32; 3], per_point: u32) -> Sparsity {
+    let points = cells.map(|n| n + 1);
+    let at = |x: u32, y: u32, z: u32| (x * points[1] + y) * points[2] + z;
+    let mut groups = Vec::new();
+    for x in 0..cells[0] {
+        for y in 0..cells[1] {
+            for z in 0..cells[2] {
+                let corners = (0..8).map(|c| at(x + c / 4, y + c / 2 % 2, z + c % 2));
+                let equations =
+                    corners.flat_map(|p| (0..per_point).map(move |d| p * per_point + d));
+                groups.push(equations.collect::<Vec<_>>());
+            }
+        }
+    }
+    let n = points.iter().product::<u32>() * per_point;
+    Sparsity::from_groups(n as usize, groups.iter().map(Vec::as_slice))
+}
+
+/// Largest of |b - A x|.
+fn defect(p: &Sparsity, v: &MatrixValues, x: &[f64], b: &[f64]) -> f64 {
+    let mut y = vec![0.0; b.len()];
+    v.multiply(p, x, &mut y);
+    let parts = y.iter().zip(b).map(|(y, b)| (y - b).abs());
+    parts.fold(0.0, f64::max)
+}
+
+#[test]
+fn fronts_of_every_shape_solve_alike() {
+    // Slender: from both ends. Flat: minimum degree. In one piece or in three, one of which has a single equation.
+    let flat = grid([30, 30, 1], 1);
+    let pieces: Vec<Vec<u32>> = vec![(0..40).collect(), vec![40], (41..50).collect()];
+    let pieces = Sparsity::from_groups(50, pieces.iter().map(Vec::as_slice));
+    for (p, ordering) in [
+        (grid([40, 3, 2], 3), Ordering::TwoSided),
+        (flat, Ordering::MinimumDegree),
+        (pieces, Ordering::TwoSided),
+    ] {
+        let b: Vec<f64> = (0..p.len()).map(|i| (i as f64).sin()).collect();
+        for (diagonal, unsymmetric, negative) in
+            [(30.0, false, 0), (-30.0, false, p.len()), (30.0, true, 0)]
+        {
+            let v = values(&p, 11, |_| diagonal, unsymmetric);
+            let mut solver = DirectSolver::default();
+            solver.analyze(&p).unwrap();
+            assert_eq!(solver.stats().ordering, ordering);
+            assert_eq!(solver.factorize(&v).unwrap().negative, negative);
+            let mut x = b.clone();
+            solver.solve_in_place(&mut x).unwrap();
+            let defect = defect(&p, &v, &x, &b);
+            assert!(defect < 1e-13, "{ordering:?} {diagonal}: {defect}");
+        }
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let p = grid([60, 4, 4], 3);
+    let b: Vec<f64> = (0..p.len()).map(|i| (i as f64).cos()).collect();
+    for diagonal in [60.0, -60.0] {
+        let v = values(&p, 5, |i| if i == 0 { 60.0 } else { diagonal }, false);
+        let solutions = [1, 2, 4].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.unwrap().install(|| solve(&p, &v, &b))
+        });
+        assert_eq!(solutions[0], solutions[1]);
+        assert_eq!(solutions[0], solutions[2]);
+    }
+}
+
+#[test]
+fn values_that_are_not_finite_are_named() {
+    let p = grid([6, 2, 2], 3);
+    for unsymmetric in [false, true] {
+        for bad in [f64::NAN, f64::INFINITY] {
+            let mut v = values(&p, 5, |_| 30.0, unsymmetric);
+            v.lower[77] = bad;
+            let mut solver = DirectSolver::default();
+            solver.analyze(&p).unwrap();
+            let refused = solver.factorize(&v);
+            assert_eq!(refused, Err(LinearError::NotFinite { position: 77 }));
+            assert_eq!(
+                solver.solve_in_place(&mut vec![0.0; p.len()]),
+                Err(LinearError::NotFactorized)
+            );
+        }
+    }
 }

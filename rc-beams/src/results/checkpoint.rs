@@ -5,7 +5,7 @@
 //! a whole after every step: whenever the program is killed, the two agree or the binary file holds more.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
@@ -241,7 +241,21 @@ impl Checkpoint {
 
 /// Version and checksum of the executable: only the same program repeats a run to the last bit.
 static PROGRAM: LazyLock<String> = LazyLock::new(|| {
-    let code = std::env::current_exe().and_then(fs::read);
-    let sum = code.map_or(0, |code| crc32fast::hash(&code));
-    format!("{} {sum:08x}", env!("CARGO_PKG_VERSION"))
+    let sum = std::env::current_exe().and_then(|path| checksum(&path));
+    format!("{} {:08x}", env!("CARGO_PKG_VERSION"), sum.unwrap_or(0))
 });
+
+/// CRC-32 of a file, read piece by piece.
+fn checksum(path: &Path) -> io::Result<u32> {
+    let mut reader = BufReader::new(File::open(path)?);
+    let mut hasher = Hasher::new();
+    loop {
+        let piece = reader.fill_buf()?;
+        if piece.is_empty() {
+            return Ok(hasher.finalize());
+        }
+        hasher.update(piece);
+        let length = piece.len();
+        reader.consume(length);
+    }
+}

@@ -1,24 +1,29 @@
 //! Pictures: one description, drawn as SVG and as PNG.
 
 use std::fmt::Display;
+use std::fs::File;
+use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
 use plotters::element::{PathElement, Text};
-use plotters::prelude::{BitMapBackend, DrawingBackend, IntoFont, SVGBackend};
+use plotters::prelude::{DrawingBackend, IntoFont, SVGBackend};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, RGBColor, ShapeStyle, TextStyle, WHITE, register_font};
 
 use super::error::ResultsError;
 use super::folder::Folder;
 use super::palette::{GREY, INK};
+use super::strip::Strip;
 
 /// Drawing units per pixel of the finished picture: backends know whole units only, lines and letters
 /// need finer ones.
 const UNITS: u32 = 4;
 /// Units averaged into one dot of a PNG, in each direction: two dots per pixel, for dense screens.
 const UNITS_PER_DOT: u32 = 2;
+/// Rows of units that are drawn together into a PNG.
+const STRIP: u32 = 256;
 
 /// Embedded font, and what a viewer of an SVG without it may use.
 const FONT: &str = "DejaVu Sans, Verdana, sans-serif";
@@ -69,12 +74,20 @@ pub trait Picture {
     fn write_png(&self, path: &Path) -> Result<(), ResultsError> {
         use_font()?;
         let (w, h) = (self.size().0 * UNITS, self.size().1 * UNITS);
-        let mut fine = vec![0; 3 * w as usize * h as usize];
-        self.paint(&BitMapBackend::with_buffer(&mut fine, (w, h)).into_drawing_area())?;
-        let (dots, size) = average(&fine, w, h);
-        let mut out = BitMapBackend::new(path, size);
-        out.blit_bitmap((0, 0), size, &dots).map_err(failed)?;
-        out.present().map_err(failed)
+        let file = BufWriter::new(File::create(path).map_err(failed)?);
+        let mut png = png::Encoder::new(file, w / UNITS_PER_DOT, h / UNITS_PER_DOT);
+        png.set_color(png::ColorType::Rgb);
+        png.set_depth(png::BitDepth::Eight);
+        let mut header = png.write_header().map_err(failed)?;
+        let mut out = header.stream_writer().map_err(failed)?;
+        // Drawn strip by strip: a picture in fine units is larger than the model of a beam.
+        for first in (0..h).step_by(STRIP as usize) {
+            let mut strip = Strip::new((w, h), first..(first + STRIP).min(h));
+            self.draw(&(&mut strip).into_drawing_area())
+                .map_err(failed)?;
+            out.write_all(&average(strip.units(), w)).map_err(failed)?;
+        }
+        out.finish().map_err(failed)
     }
 
     /// Draws the picture with its background and completes it.
@@ -182,13 +195,12 @@ fn failed(error: impl Display) -> ResultsError {
     ResultsError::Drawing(error.to_string())
 }
 
-/// Mean colour of squares of [`UNITS_PER_DOT`] units, as RGB rows, with the size of the result.
-fn average(fine: &[u8], w: u32, h: u32) -> (Vec<u8>, (u32, u32)) {
+/// Mean colour of squares of [`UNITS_PER_DOT`] units, as RGB rows; rows of `w` units.
+fn average(fine: &[u8], w: u32) -> Vec<u8> {
     let (n, row) = (UNITS_PER_DOT as usize, 3 * w as usize);
-    let size = (w / UNITS_PER_DOT, h / UNITS_PER_DOT);
     let mut dots = Vec::with_capacity(fine.len() / (n * n));
     for rows in fine.chunks_exact(n * row) {
-        for x in 0..size.0 as usize {
+        for x in 0..w as usize / n {
             for channel in 0..3 {
                 let sum: usize = (0..n * n)
                     .map(|i| usize::from(rows[(i / n) * row + 3 * (n * x + i % n) + channel]))
@@ -197,7 +209,7 @@ fn average(fine: &[u8], w: u32, h: u32) -> (Vec<u8>, (u32, u32)) {
             }
         }
     }
-    (dots, size)
+    dots
 }
 
 #[cfg(test)]
@@ -242,9 +254,7 @@ mod tests {
         let mut fine = [0; 3 * 4 * 2];
         fine[0] = 100; // first unit of the first row
         fine[3 * 4 + 3] = 60; // second unit of the second row
-        let (dots, size) = average(&fine, 4, 2);
-        assert_eq!(size, (2, 1));
-        assert_eq!(dots, [40, 0, 0, 0, 0, 0]);
+        assert_eq!(average(&fine, 4), [40, 0, 0, 0, 0, 0]);
     }
 
     #[test]

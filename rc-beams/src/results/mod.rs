@@ -24,5 +24,6 @@ pub mod report;
 pub mod resources;
 pub mod sheets;
 mod side_view;
+mod strip;
 pub mod summary;
 mod table;
