@@ -40,10 +40,13 @@ pub struct StepControl {
     pub end: f64,
     /// Relative residual a step must meet.
     pub criterion: f64,
-    /// A step that took fewer iterations is followed by a longer one.
-    pub easy: usize,
-    /// Growth of the step after an easy one.
+    /// Iterations a step should take: the next one is longer or shorter by the square root of their ratio to those taken
+    /// (Ramm 1981), within the two bounds that follow.
+    pub desired: usize,
+    /// Largest growth from one step to the next.
     pub growth: f64,
+    /// Smallest, at most 1, where no step has to be shorter than one that succeeded.
+    pub shrinkage: f64,
     /// Share of a step that failed at which it is tried again.
     pub cut: f64,
     /// What to do when the shortest step fails.
@@ -69,8 +72,9 @@ impl StepControl {
             shortest: initial / 64.0,
             end,
             criterion: 1e-3,
-            easy: 8,
+            desired: 8,
             growth: 1.3,
+            shrinkage: 1.0,
             cut: 0.5,
             on_failure: OnFailure::Stop,
         }
@@ -272,11 +276,17 @@ impl StepControl {
 
     /// Length aimed at after an accepted step.
     fn next_length(&self, length: f64, longest: f64, done: &Done) -> f64 {
-        if done.converged && done.iterations < self.easy {
-            (done.taken * self.growth).max(length).min(longest)
+        let wanted = self.desired as f64 / done.iterations.max(1) as f64;
+        let growth = if done.converged { self.growth } else { 1.0 };
+        let factor = wanted.sqrt().clamp(self.shrinkage.min(growth), growth);
+        let next = done.taken * factor;
+        // A step that another limit made short says nothing about the next one.
+        let next = if factor > 1.0 {
+            next.max(length)
         } else {
-            done.taken.min(length)
-        }
+            next.min(length)
+        };
+        next.min(longest).max(self.shortest)
     }
 
     /// Signs of the tangent where an attempt ends and the energies of the step.

@@ -40,10 +40,11 @@ pub struct Stepping {
 const LONGEST: f64 = 2.0;
 /// First step over the shortest one.
 const SHORTEST: f64 = 4.0;
-/// Steps with fewer iterations are followed by longer ones.
-const EASY: usize = 20;
-/// How much longer.
-const GROWTH: f64 = 1.5;
+/// Iterations a step should take.
+const DESIRED: usize = 8;
+/// Bounds of the change from one step to the next.
+const GROWTH: f64 = 1.25;
+const SHRINKAGE: f64 = 0.35;
 /// Share of a failed step at which it is tried again.
 const CUT: f64 = 0.25;
 
@@ -64,8 +65,9 @@ impl Stepping {
             longest_share: self.longest_share,
             shortest: self.initial_mm / SHORTEST,
             criterion: self.criterion,
-            easy: EASY,
+            desired: DESIRED,
             growth: GROWTH,
+            shrinkage: SHRINKAGE,
             cut: CUT,
             on_failure: OnFailure::Flag,
             ..StepControl::new(self.initial_mm, self.until_mm)
