@@ -139,10 +139,10 @@ pub const MAX_LOAD_GAP: f64 = 0.03;
 /// within limits only: its cracks lock.
 pub const LOCKING: f64 = 1.2;
 
-/// Change of the peak under halving of the steps beyond which it is trusted within limits only.
-pub const MAX_STEP_CHANGE: f64 = 0.03;
+/// Change of the peak under a refinement beyond which it is trusted within limits only.
+pub const MAX_CHANGE: f64 = 0.03;
 /// The same beyond which it is not trusted.
-pub const MAX_STEP_CHANGE_LIMITED: f64 = 0.10;
+pub const MAX_CHANGE_LIMITED: f64 = 0.10;
 
 /// Kinetic energy over the work done beyond which the peak of a motion is not trusted (prototype runs: the peak no
 /// longer depends on the rate from 1e-3 down).
@@ -293,22 +293,19 @@ impl Verdict {
         }
     }
 
-    /// Lowers the trust by the relative change of the peak when all steps are halved: limited beyond 3 %, low beyond
-    /// 10 %, or where there is no such peak. The reason is added to.
-    pub fn limit_by_step(&mut self, change: f64) {
+    /// Lowers the trust by the relative `change` of the peak under a `refinement`, "half the steps" say: limited beyond 3 %,
+    /// low beyond 10 %, or where there is no such peak. The reason is added to.
+    pub fn limit_by_change(&mut self, refinement: &str, change: f64) {
         let size = change.abs();
-        let trust = if size <= MAX_STEP_CHANGE {
+        let trust = if size <= MAX_CHANGE {
             Trust::High
-        } else if size <= MAX_STEP_CHANGE_LIMITED {
+        } else if size <= MAX_CHANGE_LIMITED {
             Trust::Limited
         } else {
             Trust::Low
         };
         self.trust = self.trust.max(trust);
-        let reason = format!(
-            "; half the steps change the peak by {:+.1} %",
-            100.0 * change
-        );
+        let reason = format!("; {refinement}: {:+.1} % of the peak", 100.0 * change);
         self.reason.push_str(&reason);
     }
 
@@ -439,7 +436,7 @@ mod tests {
         ] {
             let path = peaked();
             let mut verdict = Verdict::of(&path, &Capacity::of(&path).unwrap());
-            verdict.limit_by_step(change);
+            verdict.limit_by_change("half the steps", change);
             assert_eq!(verdict.trust, expected, "{change}");
             assert!(verdict.reason.contains("half the steps"));
         }
@@ -447,7 +444,7 @@ mod tests {
         jumps[27].held = true;
         jumps[27].load = 0.9;
         let mut verdict = Verdict::of(&jumps, &Capacity::of(&jumps).unwrap());
-        verdict.limit_by_step(0.0);
+        verdict.limit_by_change("half the steps", 0.0);
         assert_eq!(verdict.trust, Trust::Limited);
     }
 

@@ -27,9 +27,10 @@ fn summary(folder: &Path) -> Value {
     serde_json::from_slice(&fs::read(folder.join("A-SO3-1/summary.json")).unwrap()).unwrap()
 }
 
-/// Target: `--band` adds the peak with half the steps, which differs, and leaves the run itself as it is, to the last bit.
+/// Target: `--band` adds the peaks with half the steps and with a finer mesh, which differ, and leaves the run itself as it is,
+/// to the last bit.
 #[test]
-fn half_the_steps_give_a_band() {
+fn finer_steps_and_elements_give_a_band() {
     let alone = tempfile::tempdir().unwrap();
     let banded = tempfile::tempdir().unwrap();
     let mut arguments = vec![
@@ -42,19 +43,26 @@ fn half_the_steps_give_a_band() {
     let history = |folder: &Path| fs::read(folder.join("A-SO3-1/history.csv")).unwrap();
     assert_eq!(history(alone.path()), history(banded.path()));
     let (plain, summary) = (summary(alone.path()), summary(banded.path()));
-    assert!(plain["step_band"].is_null());
+    assert!(plain["numerical_error"].is_null());
     let number = |value: &Value| value.as_f64().unwrap();
-    let (peak, band) = (number(&summary["peak_load_kn"]), &summary["step_band"]);
-    let halved = number(&band["halved_peak_load_kn"]);
-    assert!(halved != peak && (number(&band["change"]) - (halved / peak - 1.0)).abs() < 1e-12);
-    assert!((number(&band["extrapolated_peak_load_kn"]) - (2.0 * halved - peak)).abs() < 1e-9);
+    let (peak, error) = (
+        number(&summary["peak_load_kn"]),
+        &summary["numerical_error"],
+    );
+    for variation in ["half_steps", "finer_mesh"] {
+        let varied = number(&error[variation]["peak_load_kn"]);
+        let change = number(&error[variation]["change"]);
+        assert!(varied != peak && (change - (varied / peak - 1.0)).abs() < 1e-12);
+        assert!(change.abs() <= number(&error["largest_change"]));
+    }
+    assert_eq!(error["mesh"], "24x3x1");
     let reason = summary["trust_reason"].as_str().unwrap();
     assert!(
-        reason.contains("half the steps change the peak by"),
+        reason.contains("half the steps: ") && reason.contains("a finer mesh: "),
         "{reason}"
     );
     let line = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(line.contains("half steps"), "{line}");
+    assert!(line.contains("mesh 24x3x1"), "{line}");
 }
 
 /// Source: the branches that A-SO3-1 with the characteristic preset has near its peak: steps from 0.0015 to 0.01 mm put it

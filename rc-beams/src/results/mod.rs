@@ -18,6 +18,7 @@ pub mod hash;
 pub mod history;
 pub mod interrupt;
 pub mod mode;
+pub mod numerical_error;
 pub mod palette;
 pub mod progress;
 pub mod report;

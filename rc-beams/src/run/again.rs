@@ -1,4 +1,5 @@
-//! The same beam once more, modelled or stepped otherwise: what the peak would be with perfect bond, or with steps half as long.
+//! The same beam once more, modelled or stepped otherwise: what the peak would be with perfect bond, with
+//! steps half as long, or with a finer mesh.
 
 use std::io;
 
@@ -11,6 +12,7 @@ use crate::analysis::{Observer, Reading, Staging, Stepping, analyse};
 use crate::build::{Beam, ModelSettings};
 use crate::options::RunOptions;
 use crate::results::interrupt::Interrupt;
+use crate::results::numerical_error::NumericalError;
 use crate::spec::Specimen;
 
 /// Watches for interruptions only.
@@ -34,8 +36,27 @@ impl Observer for Silent<'_> {
     }
 }
 
+/// How far the peak (kN) moves with half the steps, and with half as many elements again along and up; none when the run was
+/// interrupted or a variation has no peak.
+pub(super) fn numerical_error(
+    peak_kn: f64,
+    (specimen, settings, stepping): (&Specimen, &ModelSettings, &Stepping),
+    options: &RunOptions,
+    interrupt: &Interrupt,
+) -> Result<Option<NumericalError>, RunError> {
+    let halved = peak_kn_of(specimen, settings, &stepping.halved(), options, interrupt)?;
+    let [nx, ny, nz] = settings.mesh;
+    let mesh = [(3 * nx).div_ceil(2), (3 * ny).div_ceil(2), nz];
+    let finer = ModelSettings { mesh, ..*settings };
+    let finer = peak_kn_of(specimen, &finer, stepping, options, interrupt)?;
+    let mesh = mesh.map(|n| n.to_string()).join("x");
+    Ok(halved
+        .zip(finer)
+        .map(|(halved, finer)| NumericalError::new(peak_kn, halved, (finer, mesh))))
+}
+
 /// Peak load (kN) with the given settings and steps; none when the run was interrupted.
-pub(super) fn peak_kn(
+pub(super) fn peak_kn_of(
     specimen: &Specimen,
     settings: &ModelSettings,
     stepping: &Stepping,

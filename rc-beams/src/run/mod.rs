@@ -31,7 +31,7 @@ use crate::results::mode::Diagnosis;
 use crate::results::progress::Board;
 use crate::results::resources::Resources;
 use crate::results::sheets::{MapState, SheetDrop};
-use crate::results::summary::{Figures, StepBand, Summary, WallTime, Work};
+use crate::results::summary::{Figures, Summary, WallTime, Work};
 use crate::spec::Specimen;
 pub use error::RunError;
 use plan::{driver, input_hash, settings, setup, stepping};
@@ -157,11 +157,10 @@ fn run(
     let (stop_reason, exit) = end(&outcome, interrupt);
     let kept = kept(&stop_reason, exit, &folder);
     let capacity = Capacity::of(&outcome.path);
-    let band = match capacity.and_then(|c| outcome.path.get(c.peak)) {
+    let numerical_error = match capacity.and_then(|c| outcome.path.get(c.peak)) {
         Some(peak) if options.band => {
-            let halved = stepping.halved();
-            again::peak_kn(specimen, &settings, &halved, options, interrupt)?
-                .map(|halved| StepBand::new(peak.load, halved))
+            let run = (specimen, &settings, &stepping);
+            again::numerical_error(peak.load, run, options, interrupt)?
         }
         _ => None,
     };
@@ -169,8 +168,9 @@ fn run(
     let figures = capacity.and_then(|capacity| {
         let mut verdict = Verdict::of(&outcome.path, &capacity);
         verdict.limit_by_locking(tension(&capacity));
-        if let Some(band) = &band {
-            verdict.limit_by_step(band.change);
+        if let Some(error) = &numerical_error {
+            verdict.limit_by_change("half the steps", error.half_steps.change);
+            verdict.limit_by_change("a finer mesh", error.finer_mesh.change);
         }
         Some((
             Figures::of(&outcome.path, &capacity, &verdict)?,
@@ -197,7 +197,7 @@ fn run(
                 bond: Bond::Perfect,
                 ..settings
             };
-            let peak = again::peak_kn(specimen, &perfect, &stepping, options, interrupt)?;
+            let peak = again::peak_kn_of(specimen, &perfect, &stepping, options, interrupt)?;
             peak.map(|perfect| perfect / figures.peak_load_kn)
         }
         _ => None,
@@ -240,7 +240,7 @@ fn run(
         diagnosis,
         bond_error,
         tension_over_strength: tension(&capacity),
-        step_band: band,
+        numerical_error,
         self_weight_reaction_kn: outcome.self_weight_kn,
         energy: Some(watch.energy()),
         wall_s: wall,

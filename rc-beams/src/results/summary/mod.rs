@@ -13,6 +13,7 @@ use serde::Serialize;
 use super::error::ResultsError;
 use super::folder::Folder;
 use super::mode::Diagnosis;
+use super::numerical_error::NumericalError;
 
 /// One run of one specimen. The groups are flattened: the file is one object without nesting but for
 /// `energy` and `wall_s`. What does not exist, or is not finite, is `null`.
@@ -40,8 +41,8 @@ pub struct Summary {
     pub bond_error: Option<BondError>,
     /// Largest principal tension of cracked concrete up to the peak over the tensile strength: 1 where cracks do not lock.
     pub tension_over_strength: f64,
-    /// What the length of the steps costs, where it was asked for.
-    pub step_band: Option<StepBand>,
+    /// The numerical error of the peak, where it was asked for.
+    pub numerical_error: Option<NumericalError>,
     /// Sum of the vertical reactions under self weight (kN), whole width.
     pub self_weight_reaction_kn: f64,
     /// Energy by part, where it is followed.
@@ -77,29 +78,6 @@ impl std::fmt::Display for BondError {
             100.0 * self.relative,
             self.exact_n_per_mm
         )
-    }
-}
-
-/// Peak with steps half as long.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct StepBand {
-    /// Peak load with steps half as long (kN).
-    pub halved_peak_load_kn: f64,
-    /// Its change relative to the peak.
-    pub change: f64,
-    /// Peak load extrapolated to steps of no length, 2 P(h/2) - P(h) (Richardson 1911, first order) (kN); an estimate only
-    /// where both runs follow one branch.
-    pub extrapolated_peak_load_kn: f64,
-}
-
-impl StepBand {
-    /// Compares two peaks (kN).
-    pub fn new(peak_kn: f64, halved_kn: f64) -> Self {
-        Self {
-            halved_peak_load_kn: halved_kn,
-            change: (halved_kn - peak_kn) / peak_kn,
-            extrapolated_peak_load_kn: 2.0 * halved_kn - peak_kn,
-        }
     }
 }
 
@@ -251,12 +229,12 @@ impl Summary {
             }
             _ => String::new(),
         };
-        let band = self.step_band.map_or_else(String::new, |band| {
-            let (halved, change) = (band.halved_peak_load_kn, 100.0 * band.change);
-            format!("  half steps {halved:.1} kN ({change:+.1} %)")
-        });
+        let error = match &self.numerical_error {
+            Some(error) => format!("  {}", error.line()),
+            None => String::new(),
+        };
         format!(
-            "{:<8}  peak {:.1} kN at {:.2} mm{test}{band}  {}  trust {}  {} steps  {:.1} s",
+            "{:<8}  peak {:.1} kN at {:.2} mm{test}{error}  {}  trust {}  {} steps  {:.1} s",
             self.setup.specimen,
             figures.peak_load_kn,
             figures.deflection_at_peak_mm,

@@ -33,7 +33,7 @@ const KEYS: [&str; 38] = [
     "mode_evidence",
     "counterfactual_ratio",
     "tension_over_strength",
-    "step_band",
+    "numerical_error",
     "energy",
     "test_load_kn",
     "ratio_model_to_test",
@@ -81,7 +81,7 @@ fn summary(loads: &[f64]) -> Summary {
         self_weight_reaction_kn: f64::NAN,
         bond_error: None,
         tension_over_strength: 1.0,
-        step_band: None,
+        numerical_error: None,
         energy: None,
         wall_s: WallTime {
             total: 6.14,
