@@ -4,6 +4,7 @@
 //! README.
 
 pub mod beam;
+pub mod calculix;
 pub mod conditions;
 pub mod cube;
 pub mod delamination;
