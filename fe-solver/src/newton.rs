@@ -122,7 +122,7 @@ impl Driver for NewtonRaphson {
             }
         }
         let mut residual = stage.residual(&u, lambda, &tangent)?;
-        stage.factorise()?;
+        stage.renew()?;
         let mut reference = stage.reference_load();
         stage.solve(&mut reference)?;
         let mut iterations = 0;
@@ -186,7 +186,7 @@ impl Driver for NewtonRaphson {
             };
             if slow {
                 residual = stage.residual(&u, lambda, &tangent)?;
-                stage.factorise()?;
+                stage.renew()?;
                 reference = stage.reference_load();
                 stage.solve(&mut reference)?;
             }

@@ -79,6 +79,11 @@ impl Factor {
         }
     }
 
+    /// Whether it is L L^T.
+    pub(super) fn is_definite(&self) -> bool {
+        self.kind == Kind::Definite
+    }
+
     /// Number of negative pivots of a symmetric factor, those of 2 x 2 blocks included.
     pub(super) fn negative(&self, fronts: &Fronts) -> usize {
         if self.kind != Kind::Indefinite {

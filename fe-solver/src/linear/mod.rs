@@ -3,8 +3,12 @@
 //! Policy: L L^T while the matrix is positive definite; L B L^T (Bunch and Kaufman 1977, pivoting inside a front) when
 //! it is not, which also counts the negative pivots; L U, pivoting inside a front, for unsymmetric values. Multifrontal
 //! (Duff and Reid 1983) on dense kernels; independent subtrees in parallel, with the same bits for any number of threads.
+//!
+//! A matrix near the one whose L L^T is at hand may be solved by conjugate gradients with that factor instead, where
+//! counted operations say that it is cheaper, see [`LinearSolver::renew`].
 
 mod blocks;
+mod conjugate;
 mod dense;
 mod elimination;
 mod error;
@@ -21,11 +25,14 @@ pub use order::Ordering;
 
 use fe_core::sparsity::{MatrixValues, Sparsity};
 
+use conjugate::Nearby;
 use elimination::Kind;
 use factor::Factor;
 use fronts::Fronts;
 use graph::Graph;
 
+/// Relative residual of a solution by conjugate gradients.
+const ITERATE_TO: f64 = 1e-8;
 /// Relative residual above which a solution is refined once.
 const REFINE_ABOVE: f64 = 1e-10;
 
@@ -59,6 +66,8 @@ pub struct LinearStats {
     pub solves: usize,
     /// Solutions that were refined.
     pub refinements: usize,
+    /// Iterations of conjugate gradients.
+    pub iterations: usize,
     /// Relative residual |b - A x|/|b| of the last solution.
     pub last_residual: f64,
 }
@@ -78,6 +87,17 @@ pub trait LinearSolver {
     ///
     /// [`LinearError::Singular`] naming an equation that takes part in a zero-energy mode.
     fn factorize(&mut self, values: &MatrixValues) -> Result<Inertia, LinearError>;
+
+    /// Makes `values` the matrix of the next solutions and factorises them only if that is cheaper: if the present factor
+    /// is L L^T of another matrix, solutions are found by conjugate gradients with that factor, to a relative residual of
+    /// 1e-8, as long as all their iterations together cost less than a factorisation, by counted operations. Where
+    /// they do not suffice, or the matrix proves not to be positive definite, it is factorised then. Meshes on which less than
+    /// eight iterations would pay are factorised at once. Returns the signs of the pivots, if it was factorised.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::factorize`].
+    fn renew(&mut self, values: &MatrixValues) -> Result<Option<Inertia>, LinearError>;
 
     /// Solves with the last factor, in place: one residual check, one refinement if it exceeds 1e-10.
     ///
@@ -111,8 +131,10 @@ pub struct DirectSolver {
     analysis: Option<Analysis>,
     factor: Option<Factor>,
     values: MatrixValues,
-    /// Whether the factor is that of `values`.
+    /// Whether there is a factor: that of `values`, or of an earlier matrix while that of `values` is put off.
     current: bool,
+    /// Iterations that still pay while the factorisation of `values` is put off.
+    put_off: Option<usize>,
     /// The last symmetric matrix was indefinite: start with L B L^T.
     indefinite: bool,
     stats: LinearStats,
@@ -124,11 +146,37 @@ impl DirectSolver {
     pub const fn expect(&mut self, indefinite: bool) {
         self.indefinite = indefinite;
     }
+
+    /// Whether the factorisation of the last [renewed](LinearSolver::renew) matrix is put off.
+    pub const fn is_put_off(&self) -> bool {
+        self.put_off.is_some()
+    }
+
+    /// Solves by conjugate gradients within the iterations that still pay. Returns whether they sufficed.
+    fn iterate(&mut self, rhs: &mut [f64], limit: usize) -> bool {
+        let (Some(analysis), Some(factor)) = (&self.analysis, &mut self.factor) else {
+            return false;
+        };
+        let system = Nearby {
+            pattern: &analysis.pattern,
+            values: &self.values,
+            precondition: |r: &mut [f64]| factor.solve(&analysis.fronts, r),
+        };
+        let Some((x, iterations)) = system.solve(rhs, ITERATE_TO, limit) else {
+            return false;
+        };
+        rhs.copy_from_slice(&x);
+        self.put_off = Some(limit - iterations);
+        self.stats.iterations += iterations;
+        self.stats.solves += iterations + 1;
+        true
+    }
 }
 
 impl LinearSolver for DirectSolver {
     fn analyze(&mut self, pattern: &Sparsity) -> Result<(), LinearError> {
         (self.analysis, self.factor, self.current) = (None, None, false);
+        self.put_off = None;
         let graph = Graph::new(pattern);
         let (ordering, tree) = order::choose(&graph)?;
         let fronts = Fronts::new(pattern, &graph, &tree).ok_or(LinearError::OutOfMemory)?;
@@ -149,7 +197,7 @@ impl LinearSolver for DirectSolver {
     }
 
     fn factorize(&mut self, values: &MatrixValues) -> Result<Inertia, LinearError> {
-        self.current = false;
+        (self.current, self.put_off) = (false, None);
         let (Some(analysis), Some(factor)) = (&self.analysis, &mut self.factor) else {
             return Err(LinearError::NotAnalysed);
         };
@@ -183,7 +231,32 @@ impl LinearSolver for DirectSolver {
         Ok(Inertia { negative })
     }
 
+    fn renew(&mut self, values: &MatrixValues) -> Result<Option<Inertia>, LinearError> {
+        let definite = self.factor.as_ref().is_some_and(Factor::is_definite);
+        if self.current && definite && values.is_symmetric() {
+            let LinearStats {
+                factor_flops,
+                nnz_factor,
+                nnz_matrix,
+                ..
+            } = self.stats;
+            self.put_off = conjugate::budget(factor_flops, nnz_factor + nnz_matrix);
+            if self.is_put_off() {
+                self.values.clone_from(values);
+                return Ok(None);
+            }
+        }
+        self.factorize(values).map(Some)
+    }
+
     fn solve_in_place(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
+        if let Some(limit) = self.put_off {
+            if self.iterate(rhs, limit) {
+                return Ok(());
+            }
+            let values = std::mem::take(&mut self.values);
+            self.factorize(&values)?;
+        }
         let [mut right, mut residual] = std::mem::take(&mut self.scratch);
         right.clear();
         right.extend_from_slice(rhs);

@@ -271,3 +271,37 @@ fn values_that_are_not_finite_are_named() {
         }
     }
 }
+
+#[test]
+fn a_matrix_near_the_factor_is_solved_without_its_own_where_that_pays() {
+    let p = grid([14, 14, 14], 3);
+    let b: Vec<f64> = (0..p.len()).map(|i| (i as f64).sin()).collect();
+    let first = values(&p, 3, |_| 90.0, false);
+    let mut near = first.clone();
+    for (i, v) in near.lower.iter_mut().enumerate() {
+        *v *= 1.0 + 0.05 * (i as f64).sin();
+    }
+    let mut far = values(&p, 4, |i| if i % 7 == 0 { 9000.0 } else { 90.0 }, false);
+    far.lower[p.col_ptr()[5]] = -90.0;
+    let mut solver = DirectSolver::default();
+    solver.analyze(&p).unwrap();
+    solver.factorize(&first).unwrap();
+    for (v, factorisations) in [(&near, [1, 0]), (&far, [2, 1])] {
+        solver.renew(v).unwrap();
+        let mut x = b.clone();
+        solver.solve_in_place(&mut x).unwrap();
+        let stats = solver.stats();
+        assert_eq!([stats.cholesky, stats.indefinite], factorisations);
+        assert!(defect(&p, v, &x, &b) < 1e-7);
+    }
+    assert!((2..15).contains(&solver.stats().iterations));
+    assert!(!solver.is_put_off());
+    // Small meshes are factorised at once.
+    let p = grid([30, 2, 1], 3);
+    let mut solver = DirectSolver::default();
+    solver.analyze(&p).unwrap();
+    for seed in [1, 2] {
+        solver.renew(&values(&p, seed, |_| 90.0, false)).unwrap();
+        assert_eq!(solver.stats().cholesky, seed as usize);
+    }
+}

@@ -282,6 +282,24 @@ impl<'m> Stage<'m> {
         Ok(())
     }
 
+    /// Makes the matrix of the last evaluation that asked for an operator that of the next solutions; factorises it only
+    /// if that is cheaper, see [`LinearSolver::renew`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::factorise`].
+    pub fn renew(&mut self) -> Result<(), SolverError> {
+        let begin = Instant::now();
+        self.stable_tangent = false;
+        let result = self.linear.renew(&self.assembled.matrix);
+        self.counters.factorisations += usize::from(!self.linear.is_put_off());
+        self.times.factorise += begin.elapsed();
+        if let Some(inertia) = result.map_err(|e| self.place(e))? {
+            self.counters.negative_pivots = inertia.negative;
+        }
+        Ok(())
+    }
+
     /// Solves with the last factor, in place.
     ///
     /// # Errors
@@ -289,7 +307,9 @@ impl<'m> Stage<'m> {
     /// [`SolverError::Singular`] or [`SolverError::Linear`].
     pub fn solve(&mut self, rhs: &mut [f64]) -> Result<(), SolverError> {
         let begin = Instant::now();
+        let put_off = self.linear.is_put_off();
         let result = self.linear.solve_in_place(rhs);
+        self.counters.factorisations += usize::from(put_off && !self.linear.is_put_off());
         self.times.solve += begin.elapsed();
         result.map_err(|e| self.place(e))
     }
