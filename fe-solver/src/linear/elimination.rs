@@ -183,26 +183,14 @@ impl Job<'_> {
         let list = &self.fronts.list;
         let mut root = range.end.checked_sub(1)?;
         loop {
-            // Children, last one first.
-            let mut child = root.checked_sub(1).filter(|&c| list[c].parent == root);
-            let mut heavy = Vec::new();
-            while let Some(c) = child.filter(|&c| c >= range.start) {
-                if list[c].work > PARALLEL {
-                    heavy.push(c);
-                }
-                child = list[c]
-                    .first
-                    .checked_sub(1)
-                    .filter(|&c| list[c].parent == root);
+            let children = self.fronts.children(root);
+            let mut heavy = children.filter(|&c| c >= range.start && list[c].work > PARALLEL);
+            let last = heavy.next()?;
+            if heavy.next().is_some() {
+                // The last heavy child against all before it.
+                return Some((list[last].first, root));
             }
-            match heavy[..] {
-                [] => return None,
-                [only] => root = only,
-                [last, ..] => {
-                    // The last heavy child against all before it.
-                    return Some((list[last].first, root));
-                }
-            }
+            root = last;
         }
     }
 
@@ -237,13 +225,13 @@ impl Job<'_> {
         let mut panel = part.panel(front);
         self.assemble(front, &mut panel);
         let general = self.kind == Kind::General;
-        // Children come last in the range before the front, the last one right before it.
-        let first = updates.len() - front.children;
-        let mut child = index;
-        for update in updates[first..].iter().rev() {
-            child -= 1;
-            self.extend_panel(child, update, &mut panel);
-            child = self.fronts.list[child].first;
+        let first = updates.len() - self.fronts.children(index).count();
+        for (child, update) in self
+            .fronts
+            .children(index)
+            .zip(updates[first..].iter().rev())
+        {
+            self.fronts.extend_panel(child, update, &mut panel);
         }
         let rest = height - width;
         let mut update = tools.free.pop().unwrap_or_default();
@@ -257,11 +245,12 @@ impl Job<'_> {
             Kind::General => dense::lu(&mut panel, &mut update, &mut tools.spare, stack),
         }
         self.check(front, &panel)?;
-        let mut child = index;
-        for old in updates.drain(first..).rev() {
-            child -= 1;
-            self.extend_update(child, &old, &mut update, general);
-            child = self.fronts.list[child].first;
+        for (child, old) in self
+            .fronts
+            .children(index)
+            .zip(updates.drain(first..).rev())
+        {
+            self.fronts.extend_update(child, &old, &mut update, general);
             tools.free.push(old);
         }
         updates.push(update);
@@ -285,68 +274,6 @@ impl Job<'_> {
                 panel.upper[target] = above[source];
             } else {
                 panel.lower[target] = lower[source];
-            }
-        }
-    }
-
-    /// Adds what a child left on the columns of its parent.
-    fn extend_panel(&self, child: usize, update: &[f64], panel: &mut Panel<'_>) {
-        let runs = self.fronts.runs(&self.fronts.list[child]);
-        let width = panel.subdiagonal.len();
-        let rows = self.fronts.list[child].height() - self.fronts.list[child].width();
-        for (k, run) in runs.iter().enumerate() {
-            for j in 0..run.len as usize {
-                let (from, to) = (run.from as usize + j, run.to as usize + j);
-                if to >= width {
-                    return;
-                }
-                let own = std::iter::once((from, to, run.len as usize - j));
-                let later = runs[k + 1..].iter();
-                let below =
-                    own.chain(later.map(|r| (r.from as usize, r.to as usize, r.len as usize)));
-                for (row, target, len) in below {
-                    let source = &update[from * rows + row..][..len];
-                    add(
-                        &mut panel.lower[to * panel.height + target..][..len],
-                        source,
-                    );
-                    if !panel.upper.is_empty() {
-                        let column = &mut panel.upper[to * panel.height + target..][..len];
-                        for (i, t) in column.iter_mut().enumerate() {
-                            *t += update[(row + i) * rows + from];
-                        }
-                    }
-                }
-            }
-        }
-    }
-
-    /// Adds what a child left on the rows below its parent: all of it, or the lower triangle.
-    fn extend_update(&self, child: usize, old: &[f64], update: &mut [f64], whole: bool) {
-        let front = &self.fronts.list[child];
-        let parent = &self.fronts.list[front.parent];
-        let (width, height) = (parent.width(), parent.height() - parent.width());
-        let rows = front.height() - front.width();
-        let runs = self.fronts.runs(front);
-        for (k, run) in runs.iter().enumerate() {
-            for j in 0..run.len as usize {
-                let (from, to) = (run.from as usize + j, run.to as usize + j);
-                if to < width {
-                    continue;
-                }
-                let column = &mut update[(to - width) * height..][..height];
-                let seen = if whole { 0 } else { k };
-                for (l, other) in runs.iter().enumerate().skip(seen) {
-                    let (start, to) = (other.from as usize, other.to as usize);
-                    // The lower triangle begins at the diagonal, in the run of the column itself.
-                    let diagonal = if l == k && !whole { j } else { 0 };
-                    let skip = diagonal.max(width.saturating_sub(to));
-                    if let Some(len) = (other.len as usize).checked_sub(skip) {
-                        let source = &old[from * rows + start + skip..][..len];
-                        let target = to + skip - width;
-                        add(&mut column[target..][..len], source);
-                    }
-                }
             }
         }
     }
@@ -392,11 +319,5 @@ impl Job<'_> {
             equation,
             pivot_ratio,
         })
-    }
-}
-
-fn add(to: &mut [f64], from: &[f64]) {
-    for (a, b) in to.iter_mut().zip(from) {
-        *a += b;
     }
 }

@@ -26,8 +26,6 @@ pub(super) struct Front {
     runs: Range<usize>,
     /// First front of its subtree.
     pub(super) first: usize,
-    /// Number of children.
-    pub(super) children: usize,
     /// Parent, [`ROOT`] for a root.
     pub(super) parent: usize,
     /// Operations of its subtree.
@@ -140,6 +138,15 @@ impl Fronts {
         self.list.iter().map(Front::height).max().unwrap_or(0)
     }
 
+    /// Children of a front, last one first: each comes right before what follows it.
+    pub(super) fn children(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
+        let before = move |front: usize| {
+            let child = front.checked_sub(1)?;
+            (self.list[child].parent == index).then_some(child)
+        };
+        std::iter::successors(before(index), move |&child| before(self.list[child].first))
+    }
+
     /// Rows below of a front, as columns.
     pub(super) fn below(&self, front: &Front) -> &[u32] {
         &self.rows[front.below.clone()]
@@ -169,7 +176,6 @@ impl Fronts {
         }
         let me = self.list.len();
         let mut subtree = me;
-        let mut children = 0;
         let mut work = 0.0;
         while let Some(child) = subtree.checked_sub(1) {
             let end = self.list[child].columns.end;
@@ -182,7 +188,6 @@ impl Fronts {
             rows.extend(beyond.filter(|&&row| row as usize >= columns.end));
             self.list[child].parent = me;
             work += self.list[child].work;
-            children += 1;
             subtree = self.list[child].first;
         }
         rows.sort_unstable();
@@ -198,7 +203,6 @@ impl Fronts {
             entries: 0..0,
             runs: 0..0,
             first: subtree,
-            children,
             parent: ROOT,
             work: work + own,
         });

@@ -12,6 +12,7 @@ mod conjugate;
 mod dense;
 mod elimination;
 mod error;
+mod extend;
 mod factor;
 mod fronts;
 mod graph;
