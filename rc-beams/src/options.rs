@@ -110,6 +110,14 @@ pub struct Cracks {
     #[arg(long, value_name = "FACTOR", value_parser = band_factor, allow_negative_numbers = true)]
     pub band_factor: Option<f64>,
 
+    /// Fracture energy over that of the Model Code
+    #[arg(long, value_name = "FACTOR", value_parser = energy_factor, allow_negative_numbers = true)]
+    pub fracture_energy_factor: Option<f64>,
+
+    /// Crushing energy over 250 times the fracture energy of the Model Code
+    #[arg(long, value_name = "FACTOR", value_parser = energy_factor, allow_negative_numbers = true)]
+    pub crushing_energy_factor: Option<f64>,
+
     /// Largest aggregate (mm)
     #[arg(long, value_name = "MM", value_parser = aggregate, allow_negative_numbers = true)]
     pub aggregate_mm: Option<f64>,
@@ -371,6 +379,10 @@ fn shear_floor(text: &str) -> Result<f64, String> {
 
 fn band_factor(text: &str) -> Result<f64, String> {
     number(text, 0.25..=2.0)
+}
+
+fn energy_factor(text: &str) -> Result<f64, String> {
+    number(text, 0.25..=4.0)
 }
 
 fn aggregate(text: &str) -> Result<f64, String> {

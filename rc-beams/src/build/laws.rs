@@ -68,13 +68,16 @@ fn concrete(
     Ok(match settings.law {
         Law::FixedCrack => {
             let young = specimen.concrete.young_mpa.get();
+            let source = FixedCrackParameters::from_strength(c.fcm_mpa, c.fctm_mpa, young);
             let parameters = FixedCrackParameters {
+                fracture_energy: settings.fracture_energy_factor * source.fracture_energy,
+                crushing_energy: settings.crushing_energy_factor * source.crushing_energy,
                 poisson: specimen.concrete.poisson.get(),
                 shear_floor: settings.shear_floor,
                 tension_softening: settings.tension_softening,
                 shear_transfer: settings.shear_transfer,
                 compression_softening: settings.compression_softening,
-                ..FixedCrackParameters::from_strength(c.fcm_mpa, c.fctm_mpa, young)
+                ..source
             };
             let onset = Ottosen::new(&Calibration::model_code(c.fcm_mpa, c.fctm_mpa))?;
             Arc::new(FixedCrack::new(parameters, Some(onset))?)

@@ -32,6 +32,10 @@ pub struct ModelSettings {
     pub shear_floor: f64,
     /// Crack-band width of the fixed-crack law over the side of the equivalent square in the plane of the beam.
     pub band_factor: f64,
+    /// Fracture energy of the fixed-crack law over that of its source.
+    pub fracture_energy_factor: f64,
+    /// The same of its crushing energy.
+    pub crushing_energy_factor: f64,
     /// Bond of the sheets.
     pub bond: Bond,
     /// Fibres of the sheet on the soffit.
@@ -63,6 +67,8 @@ impl ModelSettings {
             compression_softening: CompressionSoftening::VecchioCollins,
             shear_floor: 1e-4,
             band_factor: 1.0,
+            fracture_energy_factor: 1.0,
+            crushing_energy_factor: 1.0,
             bond: Bond::Cohesive,
             soffit_fibre,
             sheet_shear,
@@ -117,6 +123,8 @@ impl ModelSettings {
         }
         self.shear_floor = given.shear_floor.unwrap_or(self.shear_floor);
         self.band_factor = given.band_factor.unwrap_or(self.band_factor);
+        self.fracture_energy_factor = given.fracture_energy_factor.unwrap_or(1.0);
+        self.crushing_energy_factor = given.crushing_energy_factor.unwrap_or(1.0);
         self
     }
 
