@@ -102,6 +102,10 @@ pub struct Cracks {
     #[arg(long, value_enum)]
     pub compression_softening: Option<CompressionSoftening>,
 
+    /// Distance of the cracks whose openings weaken struts (mm)
+    #[arg(long, value_name = "MM", value_parser = crack_spacing, allow_negative_numbers = true)]
+    pub crack_spacing_mm: Option<f64>,
+
     /// Least shear stiffness of open cracks over that of sound concrete; without it, that of the preset
     #[arg(long, value_name = "SHARE", value_parser = shear_floor, allow_negative_numbers = true)]
     pub shear_floor: Option<f64>,
@@ -379,6 +383,10 @@ fn shear_floor(text: &str) -> Result<f64, String> {
 
 fn band_factor(text: &str) -> Result<f64, String> {
     number(text, 0.25..=2.0)
+}
+
+fn crack_spacing(text: &str) -> Result<f64, String> {
+    number(text, 10.0..=1000.0)
 }
 
 fn energy_factor(text: &str) -> Result<f64, String> {

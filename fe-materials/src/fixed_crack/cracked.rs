@@ -50,7 +50,7 @@ impl FixedCrack {
         for i in 0..3 {
             let pressed = if turning { [0, 2, 2][i] } else { i };
             state.crushing = state.crushing.max(compression.crushing(state.kc[i]));
-            let (soft, soft_slopes) = self.softening(&state.kt, i);
+            let (soft, soft_slopes) = self.softening(&state.kt, i, ctx.band_width);
             let (bridged, by_kt) = tension[i].secant(state.kt[i]);
             let bridged_slope = retention.growing[i] * by_kt;
             let (whole, by_kc) = compression.secant(state.kc[i]);
@@ -109,8 +109,9 @@ impl FixedCrack {
     }
 
     /// Factor of the cracks across axis `i` on its compression curve, and its derivatives.
-    fn softening(&self, kt: &[f64; 3], i: usize) -> (f64, [f64; 3]) {
-        self.p.compression_softening.factor(kt, i, self.p.eps_c1)
+    fn softening(&self, kt: &[f64; 3], i: usize, band_width: f64) -> (f64, [f64; 3]) {
+        let law = self.p.compression_softening;
+        law.factor(kt, i, self.p.eps_c1, band_width)
     }
 
     /// Free energy density of a cracked point (MPa).
@@ -130,7 +131,7 @@ impl FixedCrack {
         for i in 0..3 {
             let bridged = tension[i].secant(state.kt[i]).0;
             let whole = compression.secant(state.kc[i]).0;
-            let soft = self.softening(&state.kt, i).0;
+            let soft = self.softening(&state.kt, i, ctx.band_width).0;
             let secant = if e[i] >= 0.0 { bridged } else { soft * whole };
             energy += 0.5 * secant * e[i] * e[i];
         }

@@ -46,7 +46,7 @@ use fe_core::principal::{Principal, principal, principal_of_many};
 use fe_core::voigt::{strain_components, strain_into, strain_tensor};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-pub use compression_softening::CompressionSoftening;
+pub use compression_softening::{CRACK_SPACING_MM, CompressionSoftening};
 pub use curves::TensionSoftening;
 use curves::{Compression, Tension};
 pub use shear_transfer::ShearTransfer;
@@ -136,6 +136,7 @@ impl FixedCrackParameters {
             return Err(out_of_range("shear_floor", self.shear_floor, "-", "(0, 1]"));
         }
         self.shear_transfer.check()?;
+        self.compression_softening.check()?;
         let plasticity = self.young_mpa * self.eps_c1 / self.fcm_mpa;
         if plasticity <= 1.0 {
             return Err(MaterialError::Parameter {

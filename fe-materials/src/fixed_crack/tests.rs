@@ -87,15 +87,21 @@ fn a_crack_dissipates_the_fracture_energy() {
     }
 }
 
-/// Vecchio and Collins (1993): a strut crossed by cracks of 1 % strain carries fcm/(1 + 0.27 (0.01/eps_c1 - 0.37)).
+/// Vecchio and Collins (1993): a strut crossed by cracks at a spacing s that open by w carries
+/// fcm/(1 + 0.27 (w/(s eps_c1) - 0.37)), whatever the width of the crack band.
 #[test]
 fn cracks_weaken_the_strut_they_cross() {
     let p = parameters();
     let across = 0.01;
-    let beta = 1.0 / (1.0 + 0.27 * (across / p.eps_c1 - 0.37));
+    let weakened = |crack_spacing_mm: f64| {
+        let average = across * WIDTH / crack_spacing_mm;
+        let law = CompressionSoftening::VecchioCollins { crack_spacing_mm };
+        (law, 1.0 / (1.0 + 0.27 * (average / p.eps_c1 - 0.37)))
+    };
     for (compression_softening, share) in [
         (CompressionSoftening::None, 1.0),
-        (CompressionSoftening::VecchioCollins, beta),
+        weakened(WIDTH),
+        weakened(0.4 * WIDTH),
     ] {
         let mut point = Point::new(build(FixedCrackParameters {
             compression_softening,

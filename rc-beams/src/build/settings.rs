@@ -64,7 +64,7 @@ impl ModelSettings {
             shear_transfer: ShearTransfer::Interlock {
                 aggregate_mm: AGGREGATE_MM,
             },
-            compression_softening: CompressionSoftening::VecchioCollins,
+            compression_softening: CompressionSoftening::default(),
             shear_floor: 1e-4,
             band_factor: 1.0,
             fracture_energy_factor: 1.0,
@@ -118,8 +118,13 @@ impl ModelSettings {
         if let Some(softening) = given.compression_softening {
             self.compression_softening = match softening {
                 Compression::None => CompressionSoftening::None,
-                Compression::VecchioCollins => CompressionSoftening::VecchioCollins,
+                Compression::VecchioCollins => CompressionSoftening::default(),
             };
+        }
+        if let (CompressionSoftening::VecchioCollins { crack_spacing_mm }, Some(given)) =
+            (&mut self.compression_softening, given.crack_spacing_mm)
+        {
+            *crack_spacing_mm = given;
         }
         self.shear_floor = given.shear_floor.unwrap_or(self.shear_floor);
         self.band_factor = given.band_factor.unwrap_or(self.band_factor);
