@@ -79,6 +79,11 @@ impl Sparsity {
         &self.row_idx
     }
 
+    /// Positions of the entries of column `j`, from the diagonal on, in [`Self::row_idx`] and in arrays of values.
+    pub fn column(&self, j: usize) -> std::ops::Range<usize> {
+        self.col_ptr[j]..self.col_ptr[j + 1]
+    }
+
     /// Position of entry (i, j), `i >= j`, in the value array; `None` where nothing is stored.
     pub fn position(&self, i: usize, j: usize) -> Option<usize> {
         let column = *self.col_ptr.get(j)?..*self.col_ptr.get(j + 1)?;
@@ -114,7 +119,7 @@ impl MatrixValues {
         y.fill(0.0);
         for j in 0..pattern.len() {
             let mut sum = 0.0;
-            for k in pattern.col_ptr[j]..pattern.col_ptr[j + 1] {
+            for k in pattern.column(j) {
                 let i = pattern.row_idx[k];
                 y[i] += self.lower[k] * x[j];
                 if i != j {
@@ -135,7 +140,7 @@ impl MatrixValues {
         let n = pattern.len();
         let mut triplets = sprs::TriMat::with_capacity((n, n), 2 * pattern.nnz());
         for j in 0..n {
-            for k in pattern.col_ptr[j]..pattern.col_ptr[j + 1] {
+            for k in pattern.column(j) {
                 let i = pattern.row_idx[k];
                 triplets.add_triplet(i, j, self.lower[k]);
                 if i != j {

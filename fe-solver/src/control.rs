@@ -94,6 +94,8 @@ impl StepControl {
             ("shortest step", self.shortest),
             ("end", self.end),
             ("criterion", self.criterion),
+            ("growth of a step", self.growth),
+            ("shrinkage of a step", self.shrinkage),
         ] {
             if !(value.is_finite() && value > 0.0) {
                 return Err(SolverError::Setting {
@@ -459,6 +461,20 @@ mod tests {
                 },
             ),
             ("cut of a failed step", StepControl { cut: 1.0, ..good }),
+            (
+                "growth of a step",
+                StepControl {
+                    growth: f64::NAN,
+                    ..good
+                },
+            ),
+            (
+                "shrinkage of a step",
+                StepControl {
+                    shrinkage: 0.0,
+                    ..good
+                },
+            ),
             (
                 "end",
                 StepControl {

@@ -55,6 +55,8 @@ fn finer_steps_and_elements_give_a_band() {
         assert!(varied != peak && (change - (varied / peak - 1.0)).abs() < 1e-12);
         assert!(change.abs() <= number(&error["largest_change"]));
     }
+    let halved = number(&error["half_steps"]["peak_load_kn"]);
+    assert!((number(&error["extrapolated_peak_load_kn"]) - (2.0 * halved - peak)).abs() < 1e-9);
     assert_eq!(error["mesh"], "24x3x1");
     let reason = summary["trust_reason"].as_str().unwrap();
     assert!(

@@ -23,7 +23,7 @@ pub struct Metal {
     pub hardening: f64,
 }
 
-/// What a run of CalculiX gave.
+/// What a run gave, there or here.
 #[derive(Debug, Clone, Copy)]
 pub struct Reference {
     /// Sum of the vertical reactions of the supports at the end (N).

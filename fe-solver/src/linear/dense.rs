@@ -16,6 +16,7 @@ use faer::prelude::{IntoConst, Reborrow, ReborrowMut};
 use faer::{Accum, MatMut, MatRef, Par};
 
 use super::blocks::{Blocks, Inverse};
+use super::elimination::Failure;
 
 /// What one front leaves in the factor.
 pub(super) struct Panel<'a> {
@@ -30,10 +31,6 @@ pub(super) struct Panel<'a> {
     /// Column of the front that is the pivot of each of its columns, and the inverse.
     pub(super) pivots: [&'a mut [usize]; 2],
 }
-
-/// The matrix is not positive definite.
-#[derive(Debug)]
-pub(super) struct Indefinite;
 
 /// Columns of a panel that are updated together: narrow in low fronts.
 const fn block(height: usize) -> usize {
@@ -61,7 +58,7 @@ pub(super) fn cholesky(
     panel: &mut Panel<'_>,
     update: &mut [f64],
     stack: &mut MemStack,
-) -> Result<(), Indefinite> {
+) -> Result<(), Failure> {
     let mut all = columns(panel.lower, panel.height);
     let (width, height) = (all.ncols(), panel.height);
     let step = block(height);
@@ -82,7 +79,7 @@ pub(super) fn cholesky(
             stack,
             faer::Spec::default(),
         )
-        .map_err(|_| Indefinite)?;
+        .map_err(|_| Failure::Indefinite)?;
         solve_lower_triangular_in_place(square.into_const(), below.transpose_mut(), Par::Seq);
     }
     let below = all.into_const().subrows(width, height - width);

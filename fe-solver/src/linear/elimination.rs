@@ -9,7 +9,7 @@ use fe_core::sparsity::MatrixValues;
 
 use super::LinearError;
 use super::blocks::Blocks;
-use super::dense::{self, Indefinite, Panel};
+use super::dense::{self, Panel};
 use super::fronts::{Front, Fronts};
 
 /// A pivot smaller than this share of its diagonal entry means that the equation can move freely. Measured:
@@ -36,14 +36,8 @@ pub(super) enum Kind {
 pub(super) enum Failure {
     /// L L^T met a pivot that is not positive.
     Indefinite,
-    /// A pivot is nothing beside its diagonal entry.
+    /// A pivot is nothing beside its diagonal entry, or there is no memory.
     Error(LinearError),
-}
-
-impl From<Indefinite> for Failure {
-    fn from(_: Indefinite) -> Self {
-        Self::Indefinite
-    }
 }
 
 /// Memory of one thread.
@@ -115,8 +109,8 @@ impl Part<'_> {
 
     /// The panel of one of its fronts.
     fn panel(&mut self, front: &Front) -> Panel<'_> {
-        let at = front.panel - self.start[0];
-        let entries = at..at + front.width() * front.height();
+        let place = front.place();
+        let entries = place.start - self.start[0]..place.end - self.start[0];
         let column = front.columns.start - self.start[1];
         let columns = column..column + front.width();
         let upper = if self.upper.is_empty() {
@@ -202,8 +196,8 @@ impl Job<'_> {
         mut updates: Updates,
         tools: &mut Vec<Tools>,
     ) -> Result<Updates, Failure> {
-        let height = self.fronts.height();
         if tools.is_empty() {
+            let height = self.fronts.height();
             tools.push(Tools::new(height).map_err(Failure::Error)?);
         }
         let tools = &mut tools[0];
@@ -280,7 +274,7 @@ impl Job<'_> {
 
     /// Refuses a pivot that is nothing beside the diagonal entry it came from, or not finite.
     fn check(&self, front: &Front, panel: &Panel<'_>) -> Result<(), Failure> {
-        let diagonal = |j: usize| panel.lower[j * panel.height + j];
+        let diagonal = |j: usize| panel.lower[front.diagonal(j)];
         let mut columns = 0..front.width();
         match self.kind {
             Kind::Definite => {

@@ -60,15 +60,14 @@ impl Factor {
             diagonal,
         };
         let [forward, backward] = &mut self.pivots;
-        let upper = if kind == Kind::General {
-            self.upper.len()
-        } else {
-            0
+        let upper = match kind {
+            Kind::General => &mut self.upper[..],
+            Kind::Definite | Kind::Indefinite => &mut [],
         };
         let part = Part {
             start: [0, 0],
             lower: &mut self.lower,
-            upper: &mut self.upper[..upper],
+            upper,
             subdiagonal: &mut self.subdiagonal,
             pivots: [forward, backward],
         };
@@ -84,15 +83,13 @@ impl Factor {
         self.kind == Kind::Definite
     }
 
-    /// Number of negative pivots of a symmetric factor, those of 2 x 2 blocks included.
+    /// Number of negative pivots of L B L^T, those of 2 x 2 blocks included.
     pub(super) fn negative(&self, fronts: &Fronts) -> usize {
-        if self.kind != Kind::Indefinite {
-            return 0;
-        }
         let mut negative = 0;
         for front in &fronts.list {
             let subdiagonal = &self.subdiagonal[front.columns.clone()];
-            let diagonal = |j| self.lower[front.panel + j * front.height() + j];
+            let panel = &self.lower[front.place()];
+            let diagonal = |j| panel[front.diagonal(j)];
             let blocks = Blocks::new(diagonal, subdiagonal);
             negative += blocks.map(|block| block.negative()).sum::<usize>();
         }
@@ -108,7 +105,7 @@ impl Factor {
         let unit = self.kind != Kind::Definite;
         for front in &fronts.list {
             let (width, height) = (front.width(), front.height());
-            let panel = &self.lower[front.panel..front.panel + width * height];
+            let panel = &self.lower[front.place()];
             let (own, below) = seen[..height].split_at_mut(width);
             let pivots = &self.pivots[0][front.columns.clone()];
             let mine = &mut x[front.columns.clone()];
@@ -120,10 +117,10 @@ impl Factor {
                 own.copy_from_slice(mine);
             }
             below.fill(0.0);
-            triangular::forward(panel, height, unit, &mut seen[..height]);
+            triangular::forward(panel, unit, &mut seen[..height]);
             if self.kind == Kind::Indefinite {
                 let subdiagonal = &self.subdiagonal[front.columns.clone()];
-                for block in Blocks::new(|j| panel[j * height + j], subdiagonal) {
+                for block in Blocks::new(|j| panel[front.diagonal(j)], subdiagonal) {
                     let j = block.column;
                     match block.inverse() {
                         Inverse::Single(a) => mine[j] = a * seen[j],
@@ -142,17 +139,16 @@ impl Factor {
         }
         for front in fronts.list.iter().rev() {
             let (width, height) = (front.width(), front.height());
-            let entries = front.panel..front.panel + width * height;
             seen[..width].copy_from_slice(&x[front.columns.clone()]);
             for (v, &row) in seen[width..height].iter_mut().zip(fronts.below(front)) {
                 *v = x[row as usize];
             }
             let (panel, unit) = match self.kind {
-                Kind::General => (&self.upper[entries], false),
-                Kind::Definite => (&self.lower[entries], false),
-                Kind::Indefinite => (&self.lower[entries], true),
+                Kind::General => (&self.upper[front.place()], false),
+                Kind::Definite => (&self.lower[front.place()], false),
+                Kind::Indefinite => (&self.lower[front.place()], true),
             };
-            triangular::backward(panel, height, unit, &mut seen[..height]);
+            triangular::backward(panel, unit, &mut seen[..height]);
             let mine = &mut x[front.columns.clone()];
             if self.kind == Kind::Indefinite {
                 let pivots = &self.pivots[0][front.columns.clone()];

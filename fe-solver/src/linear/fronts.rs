@@ -47,6 +47,16 @@ impl Front {
     fn size(&self) -> usize {
         self.width() * self.height()
     }
+
+    /// Where its panel is in the factor.
+    pub(super) fn place(&self) -> Range<usize> {
+        self.panel..self.panel + self.size()
+    }
+
+    /// Where the diagonal entry of one of its columns is in its panel.
+    pub(super) fn diagonal(&self, column: usize) -> usize {
+        column * (self.height() + 1)
+    }
 }
 
 /// An entry of the matrix and its place.
@@ -252,14 +262,13 @@ impl Fronts {
         for (s, front) in self.list.iter().enumerate() {
             owner[front.columns.clone()].fill(s as u32);
         }
-        let positions = |j: usize| pattern.col_ptr()[j]..pattern.col_ptr()[j + 1];
         let front_of = |j: usize, k: usize| {
             let (a, b) = (column[j], column[pattern.row_idx()[k]]);
             (owner[a.min(b) as usize] as usize, a, b)
         };
         let mut next = vec![0; self.list.len() + 1];
         for j in 0..n {
-            for k in positions(j) {
+            for k in pattern.column(j) {
                 next[front_of(j, k).0 + 1] += 1;
             }
         }
@@ -273,7 +282,7 @@ impl Fronts {
         };
         self.entries = vec![empty; pattern.nnz()];
         for j in 0..n {
-            for k in positions(j) {
+            for k in pattern.column(j) {
                 let (s, a, b) = front_of(j, k);
                 let front = &self.list[s];
                 let (left, row) = (a.min(b) as usize, a.max(b));

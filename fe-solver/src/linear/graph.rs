@@ -115,7 +115,7 @@ impl Rows {
 
 /// Rows of column `j`, from the diagonal on.
 fn below(pattern: &Sparsity, j: usize) -> &[usize] {
-    &pattern.row_idx()[pattern.col_ptr()[j]..pattern.col_ptr()[j + 1]]
+    &pattern.row_idx()[pattern.column(j)]
 }
 
 /// Whether equations `j` and `j + 1` couple with the same equations, each other included.

@@ -31,7 +31,7 @@ fn dense(p: &Sparsity, v: &MatrixValues) -> DMatrix<f64> {
     let upper = if v.is_symmetric() { &v.lower } else { &v.upper };
     let mut a = DMatrix::zeros(p.len(), p.len());
     for j in 0..p.len() {
-        for k in p.col_ptr()[j]..p.col_ptr()[j + 1] {
+        for k in p.column(j) {
             let i = p.row_idx()[k];
             a[(j, i)] = upper[k];
             a[(i, j)] = v.lower[k];
@@ -135,7 +135,7 @@ fn a_free_chain_and_a_zero_row_are_refused_by_equation() {
     // An equation without stiffness in an otherwise sound matrix.
     let mut v = values(&p, 5, |_| 4.0, false);
     for j in 0..n as usize {
-        for k in p.col_ptr()[j]..p.col_ptr()[j + 1] {
+        for k in p.column(j) {
             if j == 6 || p.row_idx()[k] == 6 {
                 v.lower[k] = 0.0;
             }

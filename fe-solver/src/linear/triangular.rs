@@ -5,33 +5,27 @@ use pulp::{Arch, Simd, WithSimd};
 /// Columns treated together.
 const BLOCK: usize = 4;
 
-/// Solves L y = x for the own rows of a front and leaves -L y on the rows below. `x` has the height of the panel, whose
-/// diagonal is taken as 1 if it is `unit`.
-pub(super) fn forward(panel: &[f64], height: usize, unit: bool, x: &mut [f64]) {
-    Arch::new().dispatch(Forward {
-        panel,
-        height,
-        unit,
-        x,
-    });
-}
-
-/// Solves L^T y = x, minus what the rows below contribute, for the own rows of a front.
-pub(super) fn backward(panel: &[f64], height: usize, unit: bool, x: &mut [f64]) {
-    Arch::new().dispatch(Backward {
-        panel,
-        height,
-        unit,
-        x,
-    });
-}
-
-struct Forward<'a> {
+/// The panel of a front, whose diagonal is taken as 1 if it is `unit`, and the rows of a right-hand side that it sees: as many as
+/// its own.
+struct System<'a> {
     panel: &'a [f64],
-    height: usize,
     unit: bool,
     x: &'a mut [f64],
 }
+
+/// Solves L y = x for the own rows of a front and leaves -L y on the rows below.
+pub(super) fn forward(panel: &[f64], unit: bool, x: &mut [f64]) {
+    Arch::new().dispatch(Forward(System { panel, unit, x }));
+}
+
+/// Solves L^T y = x, minus what the rows below contribute, for the own rows of a front.
+pub(super) fn backward(panel: &[f64], unit: bool, x: &mut [f64]) {
+    Arch::new().dispatch(Backward(System { panel, unit, x }));
+}
+
+struct Forward<'a>(System<'a>);
+
+struct Backward<'a>(System<'a>);
 
 impl WithSimd for Forward<'_> {
     type Output = ();
@@ -40,14 +34,15 @@ impl WithSimd for Forward<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let (height, x) = (self.height, self.x);
+        let System { panel, unit, x } = self.0;
+        let height = x.len();
         let mut first = 0;
-        for columns in self.panel.chunks(BLOCK * height) {
+        for columns in panel.chunks(BLOCK * height) {
             let n = columns.len() / height;
             let mut y = [0.0; BLOCK];
             for j in 0..n {
                 let column = &columns[j * height..(j + 1) * height];
-                if !self.unit {
+                if !unit {
                     x[first + j] /= column[first + j];
                 }
                 y[j] = x[first + j];
@@ -84,25 +79,16 @@ impl WithSimd for Forward<'_> {
     }
 }
 
-struct Backward<'a> {
-    panel: &'a [f64],
-    height: usize,
-    unit: bool,
-    x: &'a mut [f64],
-}
-
 impl WithSimd for Backward<'_> {
     type Output = ();
 
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let (height, x) = (self.height, self.x);
-        if height == 0 {
-            return;
-        }
-        let mut end = self.panel.len() / height;
-        for columns in self.panel.chunks(BLOCK * height).rev() {
+        let System { panel, unit, x } = self.0;
+        let height = x.len();
+        let mut end = panel.len() / height;
+        for columns in panel.chunks(BLOCK * height).rev() {
             let n = columns.len() / height;
             let first = end - n;
             let (own, below) = x.split_at_mut(end);
@@ -137,7 +123,7 @@ impl WithSimd for Backward<'_> {
                 for i in first + j + 1..end {
                     value -= column[i] * own[i];
                 }
-                own[first + j] = if self.unit {
+                own[first + j] = if unit {
                     value
                 } else {
                     value / column[first + j]

@@ -15,7 +15,7 @@ use fe_core::state::StateStore;
 
 use crate::critical::Signs;
 use crate::error::SolverError;
-use crate::linear::{DirectSolver, LinearError, LinearSolver};
+use crate::linear::{DirectSolver, Inertia, LinearError, LinearSolver};
 
 pub use measures::{LEAST_SCALE, Residual};
 
@@ -274,11 +274,22 @@ impl<'m> Stage<'m> {
     /// [`SolverError::Singular`] naming node and DOF, or [`SolverError::Linear`].
     pub fn factorise(&mut self) -> Result<(), SolverError> {
         let begin = Instant::now();
-        self.counters.factorisations += 1;
+        let result = self.linear.factorize(&self.assembled.matrix).map(Some);
+        self.factorised(begin, result)
+    }
+
+    /// Counts a factorisation that began at `begin`, unless it was put off.
+    fn factorised(
+        &mut self,
+        begin: Instant,
+        result: Result<Option<Inertia>, LinearError>,
+    ) -> Result<(), SolverError> {
         self.stable_tangent = false;
-        let result = self.linear.factorize(&self.assembled.matrix);
+        self.counters.factorisations += usize::from(!self.linear.is_put_off());
         self.times.factorise += begin.elapsed();
-        self.counters.negative_pivots = result.map_err(|e| self.place(e))?.negative;
+        if let Some(inertia) = result.map_err(|e| self.place(e))? {
+            self.counters.negative_pivots = inertia.negative;
+        }
         Ok(())
     }
 
@@ -290,14 +301,8 @@ impl<'m> Stage<'m> {
     /// Those of [`Self::factorise`].
     pub fn renew(&mut self) -> Result<(), SolverError> {
         let begin = Instant::now();
-        self.stable_tangent = false;
         let result = self.linear.renew(&self.assembled.matrix);
-        self.counters.factorisations += usize::from(!self.linear.is_put_off());
-        self.times.factorise += begin.elapsed();
-        if let Some(inertia) = result.map_err(|e| self.place(e))? {
-            self.counters.negative_pivots = inertia.negative;
-        }
-        Ok(())
+        self.factorised(begin, result)
     }
 
     /// Solves with the last factor, in place.
@@ -350,7 +355,7 @@ impl<'m> Stage<'m> {
         let pattern = self.assembler.pattern();
         let mut sums = vec![0.0; pattern.len()];
         for j in 0..pattern.len() {
-            for k in pattern.col_ptr()[j]..pattern.col_ptr()[j + 1] {
+            for k in pattern.column(j) {
                 let (i, value) = (pattern.row_idx()[k], self.assembled.matrix.lower[k].abs());
                 sums[i] += value;
                 if i != j {

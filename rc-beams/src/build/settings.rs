@@ -128,9 +128,19 @@ impl ModelSettings {
         }
         self.shear_floor = given.shear_floor.unwrap_or(self.shear_floor);
         self.band_factor = given.band_factor.unwrap_or(self.band_factor);
-        self.fracture_energy_factor = given.fracture_energy_factor.unwrap_or(1.0);
-        self.crushing_energy_factor = given.crushing_energy_factor.unwrap_or(1.0);
+        self.fracture_energy_factor = given
+            .fracture_energy_factor
+            .unwrap_or(self.fracture_energy_factor);
+        self.crushing_energy_factor = given
+            .crushing_energy_factor
+            .unwrap_or(self.crushing_energy_factor);
         self
+    }
+
+    /// Elements along, up and across, as the command line takes them.
+    pub fn mesh_name(&self) -> String {
+        let [nx, ny, nz] = self.mesh;
+        format!("{nx}x{ny}x{nz}")
     }
 
     /// Crack-band width (mm) of the average concrete element: the length over which a dowel acts.

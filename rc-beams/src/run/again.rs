@@ -48,11 +48,9 @@ pub(super) fn numerical_error(
     let [nx, ny, nz] = settings.mesh;
     let mesh = [(3 * nx).div_ceil(2), (3 * ny).div_ceil(2), nz];
     let finer = ModelSettings { mesh, ..*settings };
-    let finer = peak_kn_of(specimen, &finer, stepping, options, interrupt)?;
-    let mesh = mesh.map(|n| n.to_string()).join("x");
-    Ok(halved
-        .zip(finer)
-        .map(|(halved, finer)| NumericalError::new(peak_kn, halved, (finer, mesh))))
+    let peak = peak_kn_of(specimen, &finer, stepping, options, interrupt)?;
+    let peaks = halved.zip(peak);
+    Ok(peaks.map(|(halved, peak)| NumericalError::new(peak_kn, halved, (peak, finer.mesh_name()))))
 }
 
 /// Peak load (kN) with the given settings and steps; none when the run was interrupted.

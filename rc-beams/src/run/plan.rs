@@ -109,7 +109,6 @@ pub(super) fn setup(
     beam: &Beam,
     driver: &str,
 ) -> Setup {
-    let [nx, ny, nz] = settings.mesh;
     Setup {
         specimen: specimen.name.clone(),
         preset: options::name(&settings.preset),
@@ -120,7 +119,7 @@ pub(super) fn setup(
             HexRule::Irons => "irons".into(),
             HexRule::Full => "full".into(),
         },
-        mesh: format!("{nx}x{ny}x{nz}"),
+        mesh: settings.mesh_name(),
         elements: beam.model.elements().len(),
         dofs: beam.model.dofs().len(),
         version: env!("CARGO_PKG_VERSION").into(),
