@@ -2,7 +2,9 @@
 //!
 //! A step that ends in equilibrium but [creates energy](Change::creates_energy) is refused like one without convergence.
 
+use fe_core::element::EvaluationContext;
 use fe_core::energy::Change;
+use fe_core::material::Operator;
 
 use crate::critical::Signs;
 use crate::driver::{Attempt, Driver, Request};
@@ -51,6 +53,9 @@ pub struct StepControl {
     pub cut: f64,
     /// What to do when the shortest step fails.
     pub on_failure: OnFailure,
+    /// Steps from one count of negative pivots to the next while there are some and no snap is passed; 1 counts at every
+    /// step. A stable path is looked at after every step.
+    pub count_every: usize,
 }
 
 /// One attempt at a step.
@@ -77,6 +82,7 @@ impl StepControl {
             shrinkage: 1.0,
             cut: 0.5,
             on_failure: OnFailure::Stop,
+            count_every: 1,
         }
     }
 
@@ -141,7 +147,7 @@ impl StepControl {
             if let Some(entry) = recorder.recall()? {
                 length = entry.length;
                 driver.recall(&entry.memory);
-                let done = Self::replay(stage, recorder, step, entry)?;
+                let done = self.replay(stage, recorder, step, entry)?;
                 flagged = done.flagged(flagged);
                 if let Continue::Stop(reason) = done.verdict {
                     return Ok(reason);
@@ -166,7 +172,7 @@ impl StepControl {
             match attempt {
                 Ok(mut attempt) if attempt.converged || may_flag => {
                     let counters = *stage.counters();
-                    let (signs, change) = Self::measure(stage, &attempt)?;
+                    let (signs, change) = self.measure(stage, &attempt)?;
                     if driver.balances() && change.creates_energy() {
                         if can_shorten {
                             recorder.note(step, &creation(&change))?;
@@ -291,11 +297,25 @@ impl StepControl {
         next.min(longest).max(self.shortest)
     }
 
-    /// Signs of the tangent where an attempt ends and the energies of the step.
-    fn measure(stage: &mut Stage<'_>, attempt: &Attempt) -> Result<(Signs, Change), SolverError> {
+    /// Signs of the tangent where an attempt ends, if they are due, and the energies of the step.
+    fn measure(
+        &self,
+        stage: &mut Stage<'_>,
+        attempt: &Attempt,
+    ) -> Result<(Option<Signs>, Change), SolverError> {
         let (u, lambda) = (&attempt.displacement, attempt.lambda);
         let relaxation = attempt.lag.map_or(1.0, |lag| lag.relaxation);
-        let signs = stage.stability(u, lambda, relaxation)?;
+        let known = stage.signs().negative > 0 && !attempt.held;
+        let signs = if known && stage.uncounted() + 1 < self.count_every {
+            let force = EvaluationContext {
+                operator: Operator::None,
+                relaxation,
+            };
+            stage.residual(u, lambda, &force)?;
+            None
+        } else {
+            Some(stage.stability(u, lambda, relaxation)?)
+        };
         Ok((signs, stage.weigh(u, lambda)?))
     }
 
@@ -304,10 +324,10 @@ impl StepControl {
         stage: &mut Stage<'_>,
         recorder: &mut dyn Recorder,
         step: usize,
-        (mut entry, signs): (Entry, Signs),
+        (mut entry, signs): (Entry, Option<Signs>),
     ) -> Result<Done, SolverError> {
         let lambda = entry.attempt.lambda;
-        let critical = stage.signs().until(signs);
+        let critical = signs.and_then(|signs| stage.signs().until(signs));
         if let Some(means) = &entry.attempt.means {
             stage.read_off(&means.internal);
         }
@@ -345,7 +365,7 @@ impl StepControl {
             load,
             work_conjugate_load,
             flagged: !attempt.converged,
-            negative_pivots: signs.negative,
+            negative_pivots: signs.map(|signs| signs.negative),
             critical,
             kinetic: attempt.means.map(|m| m.kinetic),
             viscous: attempt.lag.map(|lag| lag.viscous),
@@ -361,6 +381,7 @@ impl StepControl {
 
     /// Accepts a step of an earlier run again.
     fn replay(
+        &self,
         stage: &mut Stage<'_>,
         recorder: &mut dyn Recorder,
         step: usize,
@@ -380,7 +401,7 @@ impl StepControl {
             recorder.note(step, note)?;
         }
         *stage.counters_mut() = entry.counters;
-        let (signs, _) = Self::measure(stage, &entry.attempt)?;
+        let (signs, _) = self.measure(stage, &entry.attempt)?;
         Self::accept(stage, recorder, step, (entry, signs))
     }
 }

@@ -54,6 +54,8 @@ impl Default for DescentSettings {
 
 /// Step factor below which the secant operator has been left behind and is rebuilt.
 const STALE: f64 = 0.5;
+/// Iterations a factor serves before that can happen.
+const SERVED: usize = 2;
 
 /// A descent under way.
 #[derive(Debug)]
@@ -96,6 +98,11 @@ impl Descent {
         };
         descent.renew(stage)?;
         Ok(descent)
+    }
+
+    /// Goes on from where it was, after others have iterated from there.
+    pub(crate) const fn resume(&mut self) {
+        self.reach = 1.0;
     }
 
     /// Residual at `free` with the given operator.
@@ -150,7 +157,7 @@ impl Descent {
             size = stage.measure(&self.residual);
             log(&size, alpha)?;
             stage.advance();
-            self.stale = alpha < STALE;
+            self.stale = alpha < STALE && self.age >= SERVED;
         }
         Ok(size)
     }

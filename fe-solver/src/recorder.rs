@@ -54,9 +54,10 @@ pub struct StepView<'a> {
     pub kinetic: Option<f64>,
     /// Viscous work over the work so far, for drivers whose laws lag behind.
     pub viscous: Option<f64>,
-    /// Negative pivots of the symmetric part of the consistent tangent: 0 in a stable equilibrium.
-    pub negative_pivots: usize,
-    /// What the path has passed since the step before.
+    /// Negative pivots of the symmetric part of the consistent tangent: 0 in a stable equilibrium; none where they were not
+    /// counted, see [`StepControl::count_every`](crate::control::StepControl::count_every).
+    pub negative_pivots: Option<usize>,
+    /// What the path has passed since they were counted last.
     pub critical: Option<Critical>,
 }
 

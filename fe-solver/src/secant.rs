@@ -229,7 +229,6 @@ impl SecantAnderson {
             stage.advance();
         }
         let mut spent = 0;
-        let mut largest = 0.0_f64;
         let mut near = NEAR;
         loop {
             let residual = descent.run(stage, criterion, LEG, log)?;
@@ -244,22 +243,21 @@ impl SecantAnderson {
                     iterations,
                 });
             }
-            largest = largest.max(descent.largest);
-            if residual.relative > near.min(FALLEN * largest) {
+            if residual.relative > near.min(FALLEN * descent.largest) {
                 continue;
             }
             near = AGAIN * residual.relative;
             let free = descent.free.clone();
             let solve = self.solve(stage, free, Start::AtHand, lambda, criterion, log)?;
-            spent = iterations + solve.iterations;
+            spent += solve.iterations;
             if let Some(residual) = solve.converged {
                 return Ok(Snap {
                     free: solve.free,
                     residual,
-                    iterations: spent,
+                    iterations: iterations + solve.iterations,
                 });
             }
-            descent = Descent::start(stage, settings, descent.free, lambda)?;
+            descent.resume();
         }
     }
 

@@ -43,7 +43,7 @@ impl Recorder for Driven {
     fn step(&mut self, view: &StepView<'_>) -> std::io::Result<Continue> {
         let missed = view.residual > self.criterion;
         self.marked += usize::from(view.flagged || view.held || missed);
-        self.negative = self.negative.max(view.negative_pivots);
+        self.negative = self.negative.max(view.negative_pivots.unwrap_or(0));
         self.viscous = view.viscous;
         self.iterations.push(view.iterations);
         let at = self.from + self.sign * view.lambda;

@@ -71,6 +71,29 @@ fn the_peak_of_a_strip_is_a_limit_point() {
     assert_eq!(branches.count(), 0, "{:?}", path.critical);
 }
 
+/// Where the tangent is not positive definite its pivots need not be counted at every step: the path is the same, the peak is
+/// found, and three of four factorisations of counts are saved beyond it.
+#[test]
+fn counts_of_pivots_may_be_rarer_beyond_the_peak() {
+    let [every, fourth] = [1, 4].map(|count_every| {
+        let control = StepControl {
+            count_every,
+            ..steps(0.02, 1e-5)
+        };
+        path(&STRIP, vec![(control, automatic())])
+    });
+    assert_eq!(every.points.len(), fourth.points.len());
+    for (a, b) in every.points.iter().zip(&fourth.points) {
+        assert!(
+            (a[0] - b[0]).abs() < 1e-3 && (a[1] - b[1]).abs() < 1e-9,
+            "{a:?} {b:?}"
+        );
+    }
+    assert_eq!(fourth.critical[0].0, Critical::Limit);
+    let saved = every.counters.factorisations - fourth.counters.factorisations;
+    assert!(saved > every.points.len() / 3, "{saved}");
+}
+
 /// Load control ends at the peak and says so. Target: within 0.1 % of it.
 #[test]
 fn load_control_stops_at_the_limit_point() {

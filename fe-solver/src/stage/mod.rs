@@ -66,8 +66,10 @@ pub struct Stage<'m> {
     lambda: f64,
     previous: Option<(Vec<f64>, f64)>,
     accepted_load: f64,
-    /// Signs of the tangent at the accepted state.
+    /// Signs of the tangent where they were counted last.
     signs: Signs,
+    /// Steps accepted since.
+    uncounted: usize,
     /// Largest norm of the reactions (N) of all accepted states.
     largest_reactions: f64,
     counters: Counters,
@@ -109,6 +111,7 @@ impl<'m> Stage<'m> {
             previous: None,
             accepted_load: 0.0,
             signs: Signs::STABLE,
+            uncounted: 0,
             largest_reactions: 0.0,
             counters: Counters::default(),
             times: PhaseTimes::default(),
@@ -175,9 +178,15 @@ impl<'m> Stage<'m> {
         self.accepted_load
     }
 
-    /// Signs of the tangent at the accepted state; those of a stable one before the first step.
+    /// Signs of the tangent at the accepted state where they were counted last; those of a stable one before the first
+    /// step.
     pub const fn signs(&self) -> Signs {
         self.signs
+    }
+
+    /// Steps accepted since the signs were counted.
+    pub const fn uncounted(&self) -> usize {
+        self.uncounted
     }
 
     /// Accepted states.
@@ -388,9 +397,12 @@ impl<'m> Stage<'m> {
 
     /// Accepts displacement, load factor and the trial state of the last evaluation, which has been
     /// [weighed](Self::weigh). The increment of a `held` step, which passed a snap, says nothing about the next one and is
-    /// forgotten. `signs` are those of the tangent there.
-    pub fn commit(&mut self, u: Vec<f64>, lambda: f64, held: bool, signs: Signs) {
-        self.signs = signs;
+    /// forgotten. `signs` are those of the tangent there, if they were counted.
+    pub fn commit(&mut self, u: Vec<f64>, lambda: f64, held: bool, signs: Option<Signs>) {
+        (self.signs, self.uncounted) = match signs {
+            Some(signs) => (signs, 0),
+            None => (self.signs, self.uncounted + 1),
+        };
         let du = u
             .iter()
             .zip(&self.displacement)

@@ -45,6 +45,8 @@ const DESIRED: usize = 8;
 /// Bounds of the change from one step to the next.
 const GROWTH: f64 = 1.25;
 const SHRINKAGE: f64 = 0.35;
+/// Steps from one count of negative pivots to the next while there are some: each takes a factorisation.
+const COUNT_EVERY: usize = 2;
 /// Share of a failed step at which it is tried again.
 const CUT: f64 = 0.25;
 
@@ -70,6 +72,7 @@ impl Stepping {
             shrinkage: SHRINKAGE,
             cut: CUT,
             on_failure: OnFailure::Flag,
+            count_every: COUNT_EVERY,
             ..StepControl::new(self.initial_mm, self.until_mm)
         }
     }

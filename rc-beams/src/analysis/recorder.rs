@@ -131,7 +131,7 @@ impl Recorder for LoadRecorder<'_> {
             residual: view.residual,
             flagged: view.flagged,
             held: view.held,
-            unstable: view.negative_pivots > 0,
+            unstable: view.negative_pivots != Some(0),
             kinetic: view.kinetic,
             viscous: view.viscous,
         });

@@ -22,8 +22,8 @@ pub struct StepRow {
     pub p_star_kn: Option<f64>,
     /// Vertical reaction of each support, from left to right (kN).
     pub reactions_kn: Vec<f64>,
-    /// Negative pivots of the tangent.
-    pub negative_pivots: usize,
+    /// Negative pivots of the tangent, where they were counted; they are not at every step while there are some.
+    pub negative_pivots: Option<usize>,
     /// Critical point passed on the way.
     pub critical: Option<Critical>,
     /// Relative residual.
@@ -60,7 +60,7 @@ impl StepRow {
             residual: self.residual,
             flagged: self.flagged,
             held: self.held,
-            unstable: self.negative_pivots > 0,
+            unstable: self.negative_pivots != Some(0),
             kinetic: self.kinetic,
             viscous: self.viscous,
         }
@@ -75,7 +75,8 @@ impl StepRow {
         ];
         cells.extend(self.reactions_kn.iter().copied().map(number));
         cells.extend([
-            self.negative_pivots.to_string(),
+            self.negative_pivots
+                .map_or_else(String::new, |n| n.to_string()),
             self.critical.map_or_else(String::new, |c| c.to_string()),
             number(self.residual),
             number(self.criterion),

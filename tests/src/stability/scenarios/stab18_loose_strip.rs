@@ -27,7 +27,7 @@ struct Pivots(usize);
 
 impl Recorder for Pivots {
     fn step(&mut self, view: &StepView<'_>) -> std::io::Result<Continue> {
-        self.0 = self.0.max(view.negative_pivots);
+        self.0 = self.0.max(view.negative_pivots.unwrap_or(0));
         Ok(Continue::Yes)
     }
 }
