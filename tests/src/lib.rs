@@ -3,6 +3,7 @@
 //! The cases themselves are in `tests/`, one file per family, each named after its entry in the list of the
 //! README.
 
+pub mod accuracy;
 pub mod beam;
 pub mod calculix;
 pub mod conditions;

@@ -1,0 +1,164 @@
+//! What is run: beams, and settings that differ from the default in one thing.
+
+/// A set of beams run with the same options.
+#[derive(Debug, Clone, Copy)]
+pub struct Case {
+    /// Folder of its results.
+    pub name: &'static str,
+    /// What differs, for a reader.
+    pub what: &'static str,
+    /// Options of `rc-beams run`, separated by spaces.
+    pub options: &'static str,
+    /// Options of beams with sheets where they differ: their meshes have lines that strips need.
+    pub with_sheets: Option<&'static str>,
+    /// Its beams.
+    pub beams: &'static [&'static str],
+}
+
+impl Case {
+    /// Options for one beam.
+    pub fn options_of(&self, beam: &str) -> Vec<&'static str> {
+        let bare = beam.starts_with("A-") && beam.ends_with("-1");
+        let options = match self.with_sheets {
+            Some(options) if !bare => options,
+            _ => self.options,
+        };
+        options.split_whitespace().collect()
+    }
+}
+
+/// Beams whose tests are known.
+pub const KNOWN: [&str; 12] = [
+    "A-SO3-1", "A-SO4-1", "A-SW3-1", "A-SW4-1", "A-SO3-2", "A-SO3-3", "A-SO3-4", "A-SO3-5",
+    "A-SO4-2", "A-SO4-3", "A-SW3-2", "A-SW4-2",
+];
+
+/// Beams that are predicted.
+pub const PREDICTED: [&str; 9] = [
+    "B-CO1", "B-CO2", "B-CO3", "B-CF1", "B-CF2", "B-CF3", "B-CF4", "B-CW1", "B-CW2",
+];
+
+const BARE: &[&str] = &["A-SO3-1", "A-SO4-1", "A-SW3-1", "A-SW4-1"];
+
+/// A beam of each kind.
+const KINDS: &[&str] = &["A-SO3-1", "A-SW3-1", "A-SO3-2", "A-SW3-2"];
+
+/// Those that are also run as a slow motion.
+const MOTIONS: &[&str] = &["A-SO3-1", "A-SW3-1", "A-SO3-2", "A-SW3-2", "B-CF1"];
+
+const fn case(
+    name: &'static str,
+    what: &'static str,
+    options: &'static str,
+    beams: &'static [&'static str],
+) -> Case {
+    Case {
+        name,
+        what,
+        options,
+        with_sheets: None,
+        beams,
+    }
+}
+
+/// The default, with its numerical error.
+pub const DEFAULT: [Case; 2] = [
+    case("default", "as it is", "--band", &KNOWN),
+    case("default", "as it is", "--band", &PREDICTED),
+];
+
+/// Numerical settings.
+pub const NUMERICS: [Case; 8] = [
+    Case {
+        with_sheets: Some("--mesh 88x9x1"),
+        ..case("mesh-88x6x1", "finer", "--mesh 88x6x1", KINDS)
+    },
+    Case {
+        with_sheets: Some("--mesh 60x6x2"),
+        ..case("mesh-60x4x2", "two across", "--mesh 60x4x2", KINDS)
+    },
+    case("full", "27 points", "--integration full", KINDS),
+    case("reduced", "8 points", "--integration reduced", BARE),
+    case("floor-up", "floor of shear x 3", "--shear-floor 3e-4", BARE),
+    case(
+        "floor-down",
+        "floor of shear / 3",
+        "--shear-floor 3.3e-5",
+        BARE,
+    ),
+    case(
+        "automatic",
+        "steps limited by events",
+        "--driver automatic",
+        &["A-SO3-1"],
+    ),
+    case("explicit", "slow motion", "--driver explicit", MOTIONS),
+];
+
+/// Parameters of the law, one at a time by 20 %.
+pub const PARAMETERS: [Case; 10] = [
+    case(
+        "gf-down",
+        "fracture energy",
+        "--fracture-energy-factor 0.8",
+        &KNOWN,
+    ),
+    case(
+        "gf-up",
+        "fracture energy",
+        "--fracture-energy-factor 1.2",
+        &KNOWN,
+    ),
+    case(
+        "gc-down",
+        "crushing energy",
+        "--crushing-energy-factor 0.8",
+        &KNOWN,
+    ),
+    case(
+        "gc-up",
+        "crushing energy",
+        "--crushing-energy-factor 1.2",
+        &KNOWN,
+    ),
+    case("aggregate-down", "aggregate", "--aggregate-mm 15.2", &KNOWN),
+    case("aggregate-up", "aggregate", "--aggregate-mm 22.8", &KNOWN),
+    case(
+        "spacing-down",
+        "spacing of cracks",
+        "--crack-spacing-mm 40",
+        &KNOWN,
+    ),
+    case(
+        "spacing-up",
+        "spacing of cracks",
+        "--crack-spacing-mm 60",
+        &KNOWN,
+    ),
+    case("band-down", "band width", "--band-factor 0.8", &KNOWN),
+    case("band-up", "band width", "--band-factor 1.2", &KNOWN),
+];
+
+#[cfg(test)]
+mod tests {
+    //! Protects the names of folders: no two cases share one, but the parts of the default.
+    use super::*;
+
+    #[test]
+    fn names_are_distinct() {
+        let mut names: Vec<&str> = NUMERICS.iter().chain(&PARAMETERS).map(|c| c.name).collect();
+        names.push(DEFAULT[0].name);
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count);
+    }
+
+    #[test]
+    fn meshes_of_beams_with_sheets_have_their_lines() {
+        let case = NUMERICS[0];
+        assert_eq!(case.options_of("A-SO3-1"), ["--mesh", "88x6x1"]);
+        assert_eq!(case.options_of("A-SO3-2"), ["--mesh", "88x9x1"]);
+        assert_eq!(case.options_of("B-CO1"), ["--mesh", "88x9x1"]);
+    }
+}

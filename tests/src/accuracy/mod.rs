@@ -1,0 +1,5 @@
+//! Accuracy of the beams: what is run for `docs/accuracy.md`, and how its tables are written.
+
+pub mod cases;
+pub mod outcome;
+pub mod tables;

@@ -1,0 +1,192 @@
+//! Tables of `docs/accuracy.md`.
+
+use std::collections::BTreeMap;
+
+use super::cases::{Case, KNOWN, PREDICTED};
+use super::outcome::Outcome;
+
+/// Results by case and beam.
+pub type Outcomes = BTreeMap<(&'static str, &'static str), Outcome>;
+
+fn percent(share: Option<f64>) -> String {
+    share.map_or_else(String::new, |s| {
+        let text = format!("{:+.1}", 100.0 * s);
+        if text == "-0.0" { "+0.0".into() } else { text }
+    })
+}
+
+fn fixed(value: Option<f64>, digits: usize) -> String {
+    value.map_or_else(String::new, |v| format!("{v:.digits$}"))
+}
+
+fn row(cells: impl IntoIterator<Item = String>) -> String {
+    let cells: Vec<String> = cells.into_iter().collect();
+    format!("| {} |\n", cells.join(" | "))
+}
+
+fn header(names: &[&str]) -> String {
+    let lines = vec!["---".to_owned(); names.len()];
+    row(names.iter().map(|n| (*n).to_owned())) + &row(lines)
+}
+
+/// Every beam: peak, mode, cost and numerical error.
+pub fn beams(outcomes: &Outcomes) -> String {
+    let mut text = header(&[
+        "beam",
+        "peak, kN",
+        "test, kN",
+        "error, %",
+        "at, mm",
+        "mode",
+        "trust",
+        "half the steps, %",
+        "finer mesh, %",
+        "factorisations",
+        "evaluations",
+        "tension over strength",
+    ]);
+    for beam in KNOWN.iter().chain(&PREDICTED) {
+        let Some(o) = outcomes.get(&("default", *beam)) else {
+            text += &row([(*beam).to_owned()]);
+            continue;
+        };
+        let change = |of| percent(o.number(&["numerical_error", of, "change"]));
+        text += &row([
+            (*beam).to_owned(),
+            fixed(o.peak(), 1),
+            fixed(o.number(&["test_load_kn"]), 1),
+            percent(o.error()),
+            fixed(o.number(&["deflection_at_peak_mm"]), 2),
+            o.text(&["mode"]).unwrap_or_default().to_owned(),
+            o.text(&["trust"]).unwrap_or_default().to_owned(),
+            change("half_steps"),
+            change("finer_mesh"),
+            fixed(Some(o.cost[0]), 2),
+            fixed(Some(o.cost[1]), 1),
+            fixed(o.number(&["tension_over_strength"]), 1),
+        ]);
+    }
+    text
+}
+
+/// Mean and worst error, mean ratio and coefficient of variation of the beams whose tests are known.
+pub fn statistics(outcomes: &Outcomes) -> String {
+    let errors = errors(outcomes, "default");
+    let n = errors.len().max(1) as f64;
+    let mean = |of: &dyn Fn(f64) -> f64| errors.iter().map(|e| of(*e)).sum::<f64>() / n;
+    let ratio = 1.0 + mean(&|e| e);
+    let deviation = mean(&|e| (1.0 + e - ratio).powi(2)).sqrt();
+    let worst = errors.iter().fold(0.0_f64, |a, e| a.max(e.abs()));
+    format!(
+        "Of {} beams whose tests are known: mean |error| {:.1} %, worst {:.0} %; mean of model over test {ratio:.3}, coefficient of \
+         variation {:.1} %.\n",
+        errors.len(),
+        100.0 * mean(&f64::abs),
+        100.0 * worst,
+        100.0 * deviation / ratio
+    )
+}
+
+fn errors(outcomes: &Outcomes, case: &'static str) -> Vec<f64> {
+    let known = KNOWN.iter();
+    known
+        .filter_map(|beam| outcomes.get(&(case, *beam))?.error())
+        .collect()
+}
+
+/// Change of the peak (%) by each case against the default, by beam.
+pub fn changes(outcomes: &Outcomes, cases: &[Case]) -> String {
+    let mut beams: Vec<&'static str> = Vec::new();
+    for beam in cases.iter().flat_map(|c| c.beams) {
+        if !beams.contains(beam) {
+            beams.push(beam);
+        }
+    }
+    let mut text = header(&[&["", "options"], beams.as_slice()].concat());
+    for case in cases {
+        let options = case.with_sheets.map_or_else(
+            || format!("`{}`", case.options),
+            |other| format!("`{}`, with sheets `{other}`", case.options),
+        );
+        let cells = beams.iter().map(|beam| {
+            let peak = |case| outcomes.get(&(case, *beam)).and_then(Outcome::peak);
+            let change = peak(case.name)
+                .zip(peak("default"))
+                .map(|(a, b)| a / b - 1.0);
+            let low = outcomes
+                .get(&(case.name, *beam))
+                .and_then(|o| o.text(&["trust"]));
+            let note = if low == Some("low") {
+                " (trust low)"
+            } else {
+                ""
+            };
+            percent(change) + note
+        });
+        text += &row([case.what.to_owned(), options].into_iter().chain(cells));
+    }
+    text
+}
+
+/// Error against the test (%) of each case, by beam, and its mean.
+pub fn sensitivities(outcomes: &Outcomes, cases: &[Case]) -> String {
+    let mut text = header(&[&["", "options"], KNOWN.as_slice(), &["mean"]].concat());
+    let default = [("as it is", "", "default")];
+    let others = cases.iter().map(|c| (c.what, c.options, c.name));
+    for (what, options, name) in default.into_iter().chain(others) {
+        let cells = KNOWN
+            .iter()
+            .map(|beam| percent(outcomes.get(&(name, *beam)).and_then(Outcome::error)));
+        let errors = errors(outcomes, name);
+        let mean = (errors.len() == KNOWN.len())
+            .then(|| errors.iter().map(|e| e.abs()).sum::<f64>() / errors.len() as f64);
+        let mean = fixed(mean.map(|m| 100.0 * m), 1);
+        let first = [
+            what.to_owned(),
+            if options.is_empty() {
+                String::new()
+            } else {
+                format!("`{options}`")
+            },
+        ];
+        text += &row(first.into_iter().chain(cells).chain([mean]));
+    }
+    text
+}
+
+/// Puts `table` between the lines `<!-- name -->` and `<!-- end -->` of a document. None if it lacks them.
+pub fn insert(document: &str, name: &str, table: &str) -> Option<String> {
+    let begin = format!("<!-- {name} -->\n");
+    let start = document.find(&begin)? + begin.len();
+    let end = start + document[start..].find("<!-- end -->")?;
+    Some(format!(
+        "{}\n{table}\n{}",
+        &document[..start],
+        &document[end..]
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    //! Protects the text around tables.
+    use super::*;
+
+    #[test]
+    fn a_table_replaces_the_one_before() {
+        let document = "a\n<!-- x -->\nold\n<!-- end -->\nb\n<!-- y -->\n<!-- end -->\n";
+        let once = insert(document, "x", "new\n").unwrap();
+        assert_eq!(once, insert(&once, "x", "new\n").unwrap());
+        assert!(
+            once.contains("<!-- x -->\n\nnew\n\n<!-- end -->\nb\n"),
+            "{once}"
+        );
+        assert!(insert(document, "z", "").is_none());
+    }
+
+    #[test]
+    fn no_change_has_no_sign_of_a_fall() {
+        assert_eq!(percent(Some(-0.0004)), "+0.0");
+        assert_eq!(percent(Some(-0.0116)), "-1.2");
+        assert_eq!(percent(None), "");
+    }
+}

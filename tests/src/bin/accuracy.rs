@@ -1,0 +1,88 @@
+//! Runs the beams as `docs/accuracy.md` shows them and writes its tables: some two hours on two idle cores. What has been run
+//! already, by the same program, is not run again.
+//!
+//! Usage: `accuracy RC-BEAMS [FOLDER]`, the program to run and where its results go.
+
+use std::error::Error;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use fe_tests::accuracy::cases::{Case, DEFAULT, NUMERICS, PARAMETERS};
+use fe_tests::accuracy::outcome::Outcome;
+use fe_tests::accuracy::tables::{Outcomes, beams, changes, insert, sensitivities, statistics};
+use fe_tests::provenance::commit;
+
+const DOCUMENT: &str = "docs/accuracy.md";
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut arguments = std::env::args().skip(1).map(PathBuf::from);
+    let program = arguments
+        .next()
+        .ok_or("usage: accuracy RC-BEAMS [FOLDER]")?;
+    let folder = arguments
+        .next()
+        .unwrap_or_else(|| Path::new("results").join("accuracy"));
+    let runs: Vec<(&Case, &'static str)> = DEFAULT
+        .iter()
+        .chain(&NUMERICS)
+        .chain(&PARAMETERS)
+        .flat_map(|case| case.beams.iter().map(move |beam| (case, *beam)))
+        .collect();
+    let next = AtomicUsize::new(0);
+    let work = || {
+        while let Some((case, beam)) = runs.get(next.fetch_add(1, Ordering::Relaxed)) {
+            run(&program, &folder, case, beam)?;
+        }
+        Ok::<_, String>(())
+    };
+    let workers = std::thread::available_parallelism()?.get();
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+        let results = workers.into_iter().map(std::thread::ScopedJoinHandle::join);
+        results
+            .map(|result| result.unwrap_or_else(|_| Err("a worker stopped".into())))
+            .collect::<Result<Vec<()>, String>>()
+    })?;
+    let mut outcomes = Outcomes::new();
+    for (case, beam) in runs {
+        if let Some(outcome) = Outcome::read(&folder.join(case.name).join(beam))? {
+            outcomes.insert((case.name, beam), outcome);
+        }
+    }
+    let source = format!("Written at commit {} by `tests/accuracy.sh`.\n", commit());
+    let mut document = fs::read_to_string(DOCUMENT)?;
+    for (name, table) in [
+        ("source", source),
+        ("beams", beams(&outcomes)),
+        ("statistics", statistics(&outcomes)),
+        ("numerics", changes(&outcomes, &NUMERICS)),
+        ("parameters", sensitivities(&outcomes, &PARAMETERS)),
+    ] {
+        document = insert(&document, name, &table)
+            .ok_or_else(|| format!("{DOCUMENT} has no place for {name}"))?;
+    }
+    fs::write(DOCUMENT, document)?;
+    Ok(())
+}
+
+/// Runs one beam, unless its results are there.
+fn run(program: &Path, folder: &Path, case: &Case, beam: &str) -> Result<(), String> {
+    let results = folder.join(case.name);
+    if results.join(beam).join("summary.json").exists() {
+        return Ok(());
+    }
+    eprintln!("{beam} {}", case.name);
+    let mut command = Command::new(program);
+    command.args(["run", beam, "--threads", "1"]);
+    command
+        .args(case.options_of(beam))
+        .arg("--output")
+        .arg(results);
+    // A run that stops early has said so in its summary.
+    let status = command.stdout(Stdio::null()).stderr(Stdio::null()).status();
+    status
+        .map(|_| ())
+        .map_err(|e| format!("{}: {e}", program.display()))
+}
