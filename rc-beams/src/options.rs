@@ -67,6 +67,10 @@ pub struct RunOptions {
     #[arg(long = "until", value_name = "MM", value_parser = deflection, allow_negative_numbers = true)]
     pub until_mm: Option<f64>,
 
+    /// Relative residual that every step must meet
+    #[arg(long, value_name = "SHARE", value_parser = criterion, default_value_t = CRITERION, allow_negative_numbers = true)]
+    pub criterion: f64,
+
     /// Continue runs that were interrupted, from their last accepted step; beams already done are left as they are
     #[arg(long)]
     #[serde(skip)]
@@ -102,7 +106,7 @@ pub struct Cracks {
     #[arg(long, value_enum)]
     pub compression_softening: Option<CompressionSoftening>,
 
-    /// Distance of the cracks whose openings weaken struts (mm)
+    /// Distance of cracks, over which narrower elements share one (mm)
     #[arg(long, value_name = "MM", value_parser = crack_spacing, allow_negative_numbers = true)]
     pub crack_spacing_mm: Option<f64>,
 
@@ -291,6 +295,8 @@ pub struct MeshSize {
 }
 
 /// Largest number of elements in one direction.
+/// Relative residual that a step must meet where none is given.
+const CRITERION: f64 = 1e-3;
 const MAX_ELEMENTS: usize = 1000;
 /// Largest number of elements in all.
 const MAX_TOTAL: usize = 20_000;
@@ -379,6 +385,10 @@ fn number(text: &str, range: RangeInclusive<f64>) -> Result<f64, String> {
 
 fn shear_floor(text: &str) -> Result<f64, String> {
     number(text, 1e-6..=1.0)
+}
+
+fn criterion(text: &str) -> Result<f64, String> {
+    number(text, 1e-8..=0.1)
 }
 
 fn band_factor(text: &str) -> Result<f64, String> {

@@ -108,6 +108,9 @@ pub enum LawCase {
         /// What cracks do to the compression across them.
         #[serde(default)]
         compression_softening: CompressionSoftening,
+        /// Distance of cracks (mm).
+        #[serde(default)]
+        crack_spacing_mm: Option<f64>,
         /// Whether cracks open on the Ottosen surface too.
         #[serde(default = "yes")]
         ottosen_onset: bool,
@@ -237,6 +240,7 @@ impl LawCase {
                 tension_softening,
                 shear_transfer,
                 compression_softening,
+                crack_spacing_mm,
                 ottosen_onset,
                 ..
             } => {
@@ -252,6 +256,7 @@ impl LawCase {
                     tension_softening: *tension_softening,
                     shear_transfer: shear_transfer.unwrap_or(default.shear_transfer),
                     compression_softening: *compression_softening,
+                    crack_spacing_mm: crack_spacing_mm.unwrap_or(default.crack_spacing_mm),
                     ..default
                 };
                 let calibration = Calibration::model_code(c.fcm_mpa, c.fctm_mpa);

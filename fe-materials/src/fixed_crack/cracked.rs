@@ -111,7 +111,8 @@ impl FixedCrack {
     /// Factor of the cracks across axis `i` on its compression curve, and its derivatives.
     fn softening(&self, kt: &[f64; 3], i: usize, band_width: f64) -> (f64, [f64; 3]) {
         let law = self.p.compression_softening;
-        law.factor(kt, i, self.p.eps_c1, band_width)
+        let unit = self.p.crack_reach(band_width) / (self.p.crack_spacing_mm * self.p.eps_c1);
+        law.factor(kt, i, unit)
     }
 
     /// Free energy density of a cracked point (MPa).

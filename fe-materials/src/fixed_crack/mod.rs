@@ -46,7 +46,7 @@ use fe_core::principal::{Principal, principal, principal_of_many};
 use fe_core::voigt::{strain_components, strain_into, strain_tensor};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-pub use compression_softening::{CRACK_SPACING_MM, CompressionSoftening};
+pub use compression_softening::CompressionSoftening;
 pub use curves::TensionSoftening;
 use curves::{Compression, Tension};
 pub use shear_transfer::ShearTransfer;
@@ -86,7 +86,13 @@ pub struct FixedCrackParameters {
     pub shear_transfer: ShearTransfer,
     /// What cracks do to the compression across them.
     pub compression_softening: CompressionSoftening,
+    /// Distance of cracks s (mm), see [`Self::crack_reach`].
+    pub crack_spacing_mm: f64,
 }
+
+/// Distance of cracks (mm) where none is given: the grid of the wires in the panels whose average strains gave the softening of
+/// struts (Vecchio and Collins 1982), between which they cracked (assumed).
+pub const CRACK_SPACING_MM: f64 = 50.0;
 
 /// Largest aggregate (mm) where none is given: 3/4 inch, usual in the United States (assumed).
 pub const AGGREGATE_MM: f64 = 19.0;
@@ -112,11 +118,20 @@ impl FixedCrackParameters {
                 aggregate_mm: AGGREGATE_MM,
             },
             compression_softening: CompressionSoftening::default(),
+            crack_spacing_mm: CRACK_SPACING_MM,
         }
+    }
+
+    /// Length l = max(h, s) (mm) over which the strains of a crack band of width h (mm) make up one crack, which opens
+    /// by w = l kt and slips by l gamma. A band as wide as the spacing of cracks or wider holds one crack; narrower ones share it
+    /// with their neighbours, or smaller elements would mean more and finer cracks.
+    pub const fn crack_reach(&self, band_width: f64) -> f64 {
+        band_width.max(self.crack_spacing_mm)
     }
 
     fn check(&self) -> Result<(), MaterialError> {
         let positive = [
+            ("crack_spacing_mm", self.crack_spacing_mm, "mm"),
             ("young_mpa", self.young_mpa, "MPa"),
             ("fcm_mpa", self.fcm_mpa, "MPa"),
             ("ft_mpa", self.ft_mpa, "MPa"),
@@ -136,7 +151,6 @@ impl FixedCrackParameters {
             return Err(out_of_range("shear_floor", self.shear_floor, "-", "(0, 1]"));
         }
         self.shear_transfer.check()?;
-        self.compression_softening.check()?;
         let plasticity = self.young_mpa * self.eps_c1 / self.fcm_mpa;
         if plasticity <= 1.0 {
             return Err(MaterialError::Parameter {

@@ -55,8 +55,9 @@ impl FixedCrack {
         for ((pairs, axes), kept) in PLANES.into_iter().zip(0..) {
             let wider = |a, b| if state.kt[b] > state.kt[a] { b } else { a };
             let open = axes.iter().copied().reduce(wider).unwrap_or(0);
-            let opening = ctx.band_width * retention.growing[open];
-            let interlock = self.interlock(state.kt[open], ctx.band_width);
+            let reach = self.p.crack_reach(ctx.band_width);
+            let opening = reach * retention.growing[open];
+            let interlock = self.interlock(state.kt[open], reach);
             let tension = axes.iter().map(|&i| retention.tension[i]);
             let bridged = tension.fold(crushed, least);
             let slips = interlock.map(|lock| Factor {
@@ -125,10 +126,10 @@ impl FixedCrack {
         PLANES.into_iter().zip(state.shares).map(energy).sum()
     }
 
-    /// The interlock of a crack whose axis has been strained to `kt`, if it is open.
-    fn interlock(&self, kt: f64, h: f64) -> Option<Interlock> {
-        let w = h * (kt - self.p.ft_mpa / self.p.young_mpa);
+    /// The interlock of a crack whose axis has been strained to `kt` over its `reach` (mm), if it is open.
+    fn interlock(&self, kt: f64, reach: f64) -> Option<Interlock> {
+        let w = reach * (kt - self.p.ft_mpa / self.p.young_mpa);
         let transfer = self.p.shear_transfer;
-        transfer.interlock(&self.p, self.shear_modulus, h, w)
+        transfer.interlock(&self.p, self.shear_modulus, reach, w)
     }
 }

@@ -13,8 +13,9 @@ pub enum ShearTransfer {
     ///
     /// |tau| = min(max(b, r) G0 |gamma|, v),
     ///
-    /// at the widest opening w = h max(kt - ft/E). The faces slip by s = tau/k and the concrete between
-    /// them shears, r = k h/(k h + G0), with the stiffness of Walraven (1981)
+    /// at the widest opening w = l max(kt - ft/E), l = max(h, s) being the
+    /// [reach](FixedCrackParameters::crack_reach) of a crack. The faces slip by tau/k and the concrete between
+    /// them shears, r = k l/(k l + G0), with the stiffness of Walraven (1981)
     ///
     /// k = 1.8 w^-0.80 + (0.234 w^-0.707 - 0.20) f_cc (MPa/mm), f_cc = 1.2 fcm (cubes),
     ///
@@ -85,12 +86,12 @@ impl ShearTransfer {
         }
     }
 
-    /// Interlock at opening `w` (mm) over the band `h` (mm); `None` without it and without an opening.
+    /// Interlock at opening `w` (mm) of a crack of reach `l` (mm); `None` without it and without an opening.
     pub(super) fn interlock(
         self,
         p: &FixedCrackParameters,
         shear_modulus: f64,
-        h: f64,
+        l: f64,
         w: f64,
     ) -> Option<Interlock> {
         let Self::Interlock { aggregate_mm } = self else {
@@ -105,8 +106,8 @@ impl ShearTransfer {
         let stiffness = first + (second - 0.20) * cube;
         let factor = if stiffness > 0.0 {
             let slope = (-0.80 * first - 0.707 * second * cube) / w;
-            let sum = stiffness * h + shear_modulus;
-            (stiffness * h / sum, slope * h * shear_modulus / (sum * sum))
+            let sum = stiffness * l + shear_modulus;
+            (stiffness * l / sum, slope * l * shear_modulus / (sum * sum))
         } else {
             (0.0, 0.0)
         };

@@ -5,11 +5,13 @@ use fe_core::testing::{MaterialCheck, check_material};
 use nalgebra::Vector6;
 
 use super::{
-    CompressionSoftening, FixedCrack, FixedCrackParameters, ShearTransfer, TensionSoftening,
+    CRACK_SPACING_MM, CompressionSoftening, FixedCrack, FixedCrackParameters, ShearTransfer,
+    TensionSoftening,
 };
 use crate::concrete::{Calibration, Ottosen};
 
-const WIDTH: f64 = 30.0;
+/// Wider than the spacing of cracks.
+const WIDTH: f64 = 60.0;
 
 fn parameters() -> FixedCrackParameters {
     FixedCrackParameters::from_strength(38.0, 2.9, 33_000.0)
@@ -88,23 +90,22 @@ fn a_crack_dissipates_the_fracture_energy() {
 }
 
 /// Vecchio and Collins (1993): a strut crossed by cracks at a spacing s that open by w carries
-/// fcm/(1 + 0.27 (w/(s eps_c1) - 0.37)), whatever the width of the crack band.
+/// fcm/(1 + 0.27 (w/(s eps_c1) - 0.37)); over a band narrower than s the strain is the average.
 #[test]
 fn cracks_weaken_the_strut_they_cross() {
     let p = parameters();
     let across = 0.01;
-    let weakened = |crack_spacing_mm: f64| {
-        let average = across * WIDTH / crack_spacing_mm;
-        let law = CompressionSoftening::VecchioCollins { crack_spacing_mm };
-        (law, 1.0 / (1.0 + 0.27 * (average / p.eps_c1 - 0.37)))
-    };
-    for (compression_softening, share) in [
-        (CompressionSoftening::None, 1.0),
-        weakened(WIDTH),
-        weakened(0.4 * WIDTH),
+    let law = CompressionSoftening::VecchioCollins;
+    let weakened = |average: f64| 1.0 / (1.0 + 0.27 * (average / p.eps_c1 - 0.37));
+    for (compression_softening, crack_spacing_mm, share) in [
+        (CompressionSoftening::None, WIDTH, 1.0),
+        (law, WIDTH, weakened(across)),
+        (law, 0.4 * WIDTH, weakened(2.5 * across)),
+        (law, 2.0 * WIDTH, weakened(across)),
     ] {
         let mut point = Point::new(build(FixedCrackParameters {
             compression_softening,
+            crack_spacing_mm,
             ..p
         }));
         // The axis out of the plane keeps its strain at onset, which counts as lateral too.
@@ -155,6 +156,38 @@ fn a_narrow_crack_carries_no_more_shear_than_its_faces() {
     let s = point.stress(Vector6::new(e, 0.0, 0.0, 2e-3, 0.0, -1.5e-3));
     assert!((s[3].hypot(s[5]) - strength).abs() < 1e-9, "{s:?}");
     assert!((s[3] / s[5] + 2.0 / 1.5).abs() < 1e-9);
+}
+
+/// Bands narrower than the spacing of cracks share one: at the same strains their interlock is the same. A wider band holds a
+/// crack of its own, which opens more and carries less.
+#[test]
+fn narrow_bands_share_a_crack() {
+    let shear = |width: f64| {
+        let law = law(0.2);
+        let mut before = vec![0.0; law.state_len()];
+        law.init_state(&mut before);
+        let mut after = before.clone();
+        let ctx = PointContext::new(width).with_operator(Operator::None);
+        for strain in [axial(0.02), Vector6::new(0.02, 0.0, 0.0, 0.02, 0.0, 0.0)] {
+            let stress = law
+                .update(&strain, &before, &mut after, &ctx)
+                .unwrap()
+                .stress;
+            if strain[3] > 0.0 {
+                return stress[3];
+            }
+            before.copy_from_slice(&after);
+        }
+        f64::NAN
+    };
+    let narrow = shear(20.0);
+    assert!(
+        (shear(40.0) - narrow).abs() < 1e-9 && narrow > 0.1,
+        "{narrow}"
+    );
+    assert!(
+        shear(CRACK_SPACING_MM) >= narrow - 1e-9 && shear(2.0 * CRACK_SPACING_MM) < 0.7 * narrow
+    );
 }
 
 /// Vecchio and Collins (1986): pressure p across a crack adds 1.64 p - 0.82 p^2/v_m to the strength of its faces. What has

@@ -77,6 +77,7 @@ fn concrete(
                 tension_softening: settings.tension_softening,
                 shear_transfer: settings.shear_transfer,
                 compression_softening: settings.compression_softening,
+                crack_spacing_mm: settings.crack_spacing_mm,
                 ..source
             };
             let onset = Ottosen::new(&Calibration::model_code(c.fcm_mpa, c.fctm_mpa))?;

@@ -2,7 +2,7 @@
 
 use fe_elements::{BandWidth, HexRule};
 use fe_materials::fixed_crack::{
-    AGGREGATE_MM, CompressionSoftening, ShearTransfer, TensionSoftening,
+    AGGREGATE_MM, CRACK_SPACING_MM, CompressionSoftening, ShearTransfer, TensionSoftening,
 };
 
 use super::default_mesh;
@@ -28,6 +28,8 @@ pub struct ModelSettings {
     pub shear_transfer: ShearTransfer,
     /// What its cracks do to the compression across them.
     pub compression_softening: CompressionSoftening,
+    /// Distance of its cracks (mm).
+    pub crack_spacing_mm: f64,
     /// Floor of the shear factor of open cracks (-).
     pub shear_floor: f64,
     /// Crack-band width of the fixed-crack law over the side of the equivalent square in the plane of the beam.
@@ -65,6 +67,7 @@ impl ModelSettings {
                 aggregate_mm: AGGREGATE_MM,
             },
             compression_softening: CompressionSoftening::default(),
+            crack_spacing_mm: CRACK_SPACING_MM,
             shear_floor: 1e-4,
             band_factor: 1.0,
             fracture_energy_factor: 1.0,
@@ -118,14 +121,10 @@ impl ModelSettings {
         if let Some(softening) = given.compression_softening {
             self.compression_softening = match softening {
                 Compression::None => CompressionSoftening::None,
-                Compression::VecchioCollins => CompressionSoftening::default(),
+                Compression::VecchioCollins => CompressionSoftening::VecchioCollins,
             };
         }
-        if let (CompressionSoftening::VecchioCollins { crack_spacing_mm }, Some(given)) =
-            (&mut self.compression_softening, given.crack_spacing_mm)
-        {
-            *crack_spacing_mm = given;
-        }
+        self.crack_spacing_mm = given.crack_spacing_mm.unwrap_or(self.crack_spacing_mm);
         self.shear_floor = given.shear_floor.unwrap_or(self.shear_floor);
         self.band_factor = given.band_factor.unwrap_or(self.band_factor);
         self.fracture_energy_factor = given

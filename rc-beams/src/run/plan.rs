@@ -26,8 +26,6 @@ const LONGEST_SHARE: f64 = 0.01;
 /// Without a final deflection the path is followed past its peak, at most to this multiple of the
 /// deflection that the source imposed.
 const FARTHEST: f64 = 4.0;
-/// Relative residual that a step must meet.
-const CRITERION: f64 = 1e-3;
 /// Viscosity of the viscous driver (mm of imposed deflection): a first step admits 95 % of the growth of histories
 /// (prototype runs of A-SO3-1: 0.1 mm raises the peak by a fifth, 0.001 mm by nothing).
 const VISCOSITY_MM: f64 = 1e-3;
@@ -66,7 +64,7 @@ pub(super) fn stepping(specimen: &Specimen, options: &RunOptions) -> Stepping {
         longest_share: LONGEST_SHARE,
         until_mm: options.until_mm.unwrap_or(FARTHEST * imposed),
         to_the_end: options.until_mm.is_some(),
-        criterion: CRITERION,
+        criterion: options.criterion,
     }
 }
 

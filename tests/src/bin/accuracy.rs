@@ -1,7 +1,8 @@
 //! Runs the beams as `docs/accuracy.md` shows them and writes its tables: some two hours on two idle cores. What has been run
 //! already, by the same program, is not run again.
 //!
-//! Usage: `accuracy RC-BEAMS [FOLDER]`, the program to run and where its results go.
+//! Usage: `accuracy RC-BEAMS [FOLDER [tables]]`, the program to run and where its results go; with `tables` nothing is run, and what
+//! is missing stays blank.
 
 use std::error::Error;
 use std::fs;
@@ -30,21 +31,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         .chain(&PARAMETERS)
         .flat_map(|case| case.beams.iter().map(move |beam| (case, *beam)))
         .collect();
-    let next = AtomicUsize::new(0);
-    let work = || {
-        while let Some((case, beam)) = runs.get(next.fetch_add(1, Ordering::Relaxed)) {
-            run(&program, &folder, case, beam)?;
-        }
-        Ok::<_, String>(())
-    };
-    let workers = std::thread::available_parallelism()?.get();
-    std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
-        let results = workers.into_iter().map(std::thread::ScopedJoinHandle::join);
-        results
-            .map(|result| result.unwrap_or_else(|_| Err("a worker stopped".into())))
-            .collect::<Result<Vec<()>, String>>()
-    })?;
+    if arguments.next().is_none() {
+        run_all(&program, &folder, &runs)?;
+    }
     let mut outcomes = Outcomes::new();
     for (case, beam) in runs {
         if let Some(outcome) = Outcome::read(&folder.join(case.name).join(beam))? {
@@ -67,6 +56,30 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// Runs all, as many at once as there are cores, the first of them first.
+fn run_all(
+    program: &Path,
+    folder: &Path,
+    runs: &[(&Case, &'static str)],
+) -> Result<(), Box<dyn Error>> {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        while let Some((case, beam)) = runs.get(next.fetch_add(1, Ordering::Relaxed)) {
+            run(program, folder, case, beam)?;
+        }
+        Ok::<_, String>(())
+    };
+    let workers = std::thread::available_parallelism()?.get();
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+        let results = workers.into_iter().map(std::thread::ScopedJoinHandle::join);
+        results
+            .map(|result| result.unwrap_or_else(|_| Err("a worker stopped".into())))
+            .collect::<Result<Vec<()>, String>>()
+    })?;
+    Ok(())
+}
+
 /// Runs one beam, unless its results are there.
 fn run(program: &Path, folder: &Path, case: &Case, beam: &str) -> Result<(), String> {
     let results = folder.join(case.name);
@@ -75,7 +88,7 @@ fn run(program: &Path, folder: &Path, case: &Case, beam: &str) -> Result<(), Str
     }
     eprintln!("{beam} {}", case.name);
     let mut command = Command::new(program);
-    command.args(["run", beam, "--threads", "1"]);
+    command.args(["run", beam, "--threads", "1", "--resume"]);
     command
         .args(case.options_of(beam))
         .arg("--output")
