@@ -1,8 +1,8 @@
 //! Runs the beams as `docs/accuracy.md` shows them and writes its tables: some two hours on two idle cores. What has been run
 //! already, by the same program, is not run again.
 //!
-//! Usage: `accuracy RC-BEAMS [FOLDER [tables]]`, the program to run and where its results go; with `tables` nothing is run, and what
-//! is missing stays blank.
+//! Usage: `accuracy RC-BEAMS [FOLDER [tables]]`, the program to run and where its results go; with `tables` nothing is run, what
+//! is missing stays blank, and tables of which all is missing stay as they are.
 
 use std::error::Error;
 use std::fs;
@@ -42,13 +42,22 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let source = format!("Written at commit {} by `tests/accuracy.sh`.\n", commit());
     let mut document = fs::read_to_string(DOCUMENT)?;
-    for (name, table) in [
+    let any = |cases: &[Case]| {
+        let mut names = outcomes.keys().map(|(name, _)| name);
+        names.any(|name| cases.iter().any(|case| case.name == *name))
+    };
+    let mut tables = vec![
         ("source", source),
         ("beams", beams(&outcomes)),
         ("statistics", statistics(&outcomes)),
-        ("numerics", changes(&outcomes, &NUMERICS)),
-        ("parameters", sensitivities(&outcomes, &PARAMETERS)),
-    ] {
+    ];
+    if any(&NUMERICS) {
+        tables.push(("numerics", changes(&outcomes, &NUMERICS)));
+    }
+    if any(&PARAMETERS) {
+        tables.push(("parameters", sensitivities(&outcomes, &PARAMETERS)));
+    }
+    for (name, table) in tables {
         document = insert(&document, name, &table)
             .ok_or_else(|| format!("{DOCUMENT} has no place for {name}"))?;
     }

@@ -229,6 +229,7 @@ mod tests {
             criterion: 1e-3,
             iterations: 3,
             attempts: 1,
+            negative_pivots: Some(0),
             ..StepRow::default()
         }
     }
@@ -262,6 +263,7 @@ mod tests {
         history.iteration(&iteration).unwrap();
         let step = StepRow {
             p_star_kn: Some(20.25),
+            negative_pivots: None,
             ..row(1, 20.0)
         };
         history.step(&step, &[1.5e-5]).unwrap();
@@ -270,7 +272,7 @@ mod tests {
                         negative_pivots,critical,residual,criterion,iterations,attempts,held,flagged,step_mm,kinetic_share,\
                         viscous_share,factorisations,force_evaluations\n\
                         0,0,0,,0,0,0,,0.0005,0.001,3,1,0,0,0,,,0,0\n\
-                        1,0.1,20,20.25,10,10,0,,0.0005,0.001,3,1,0,0,0,,,0,0\n";
+                        1,0.1,20,20.25,10,10,,,0.0005,0.001,3,1,0,0,0,,,0,0\n";
         assert_eq!(read("history.csv"), expected);
         assert_eq!(
             read("gauges.csv"),
