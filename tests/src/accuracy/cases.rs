@@ -68,7 +68,7 @@ pub const DEFAULT: [Case; 2] = [
 ];
 
 /// Numerical settings.
-pub const NUMERICS: [Case; 8] = [
+pub const NUMERICS: [Case; 9] = [
     Case {
         with_sheets: Some("--mesh 88x9x1"),
         ..case("mesh-88x6x1", "finer", "--mesh 88x6x1", KINDS)
@@ -86,6 +86,7 @@ pub const NUMERICS: [Case; 8] = [
         "--shear-floor 3.3e-5",
         BARE,
     ),
+    case("criterion", "criterion x 0.3", "--criterion 3e-4", KINDS),
     case(
         "automatic",
         "steps limited by events",
