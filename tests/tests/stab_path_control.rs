@@ -72,7 +72,7 @@ fn the_peak_of_a_strip_is_a_limit_point() {
 }
 
 /// Where the tangent is not positive definite its pivots need not be counted at every step: the path is the same, the peak is
-/// found, and three of four factorisations of counts are saved beyond it.
+/// found, and factorisations are saved.
 #[test]
 fn counts_of_pivots_may_be_rarer_beyond_the_peak() {
     let [every, fourth] = [1, 4].map(|count_every| {

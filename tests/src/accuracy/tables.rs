@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::cases::{Case, KNOWN, PREDICTED};
+use super::cases::{Case, DEFAULT, KNOWN};
 use super::outcome::Outcome;
 
 /// Results by case and beam.
@@ -45,8 +45,8 @@ pub fn beams(outcomes: &Outcomes) -> String {
         "evaluations",
         "tension over strength",
     ]);
-    for beam in KNOWN.iter().chain(&PREDICTED) {
-        let Some(o) = outcomes.get(&("default", *beam)) else {
+    for beam in DEFAULT.beams {
+        let Some(o) = outcomes.get(&(DEFAULT.name, *beam)) else {
             text += &row([(*beam).to_owned()]);
             continue;
         };
@@ -71,20 +71,23 @@ pub fn beams(outcomes: &Outcomes) -> String {
 
 /// Mean and worst error, mean ratio and coefficient of variation of the beams whose tests are known.
 pub fn statistics(outcomes: &Outcomes) -> String {
-    let errors = errors(outcomes, "default");
-    let n = errors.len().max(1) as f64;
-    let mean = |of: &dyn Fn(f64) -> f64| errors.iter().map(|e| of(*e)).sum::<f64>() / n;
-    let ratio = 1.0 + mean(&|e| e);
-    let deviation = mean(&|e| (1.0 + e - ratio).powi(2)).sqrt();
+    let errors = errors(outcomes, DEFAULT.name);
+    let ratio = 1.0 + mean(&errors, |e| e);
+    let deviation = mean(&errors, |e| (1.0 + e - ratio).powi(2)).sqrt();
     let worst = errors.iter().fold(0.0_f64, |a, e| a.max(e.abs()));
     format!(
         "Of {} beams whose tests are known: mean |error| {:.1} %, worst {:.0} %; mean of model over test {ratio:.3}, coefficient of \
          variation {:.1} %.\n",
         errors.len(),
-        100.0 * mean(&f64::abs),
+        100.0 * mean(&errors, f64::abs),
         100.0 * worst,
         100.0 * deviation / ratio
     )
+}
+
+/// Mean of a function of the errors.
+fn mean(errors: &[f64], of: impl Fn(f64) -> f64) -> f64 {
+    errors.iter().map(|e| of(*e)).sum::<f64>() / errors.len().max(1) as f64
 }
 
 fn errors(outcomes: &Outcomes, case: &'static str) -> Vec<f64> {
@@ -111,7 +114,7 @@ pub fn changes(outcomes: &Outcomes, cases: &[Case]) -> String {
         let cells = beams.iter().map(|beam| {
             let peak = |case| outcomes.get(&(case, *beam)).and_then(Outcome::peak);
             let change = peak(case.name)
-                .zip(peak("default"))
+                .zip(peak(DEFAULT.name))
                 .map(|(a, b)| a / b - 1.0);
             let low = outcomes
                 .get(&(case.name, *beam))
@@ -130,17 +133,17 @@ pub fn changes(outcomes: &Outcomes, cases: &[Case]) -> String {
 
 /// Error against the test (%) of each case, by beam, and its mean.
 pub fn sensitivities(outcomes: &Outcomes, cases: &[Case]) -> String {
-    let mut text = header(&[&["", "options"], KNOWN.as_slice(), &["mean"]].concat());
-    let default = [("as it is", "", "default")];
+    let mut text = header(&[&["", "options"], KNOWN, &["mean"]].concat());
+    let default = [(DEFAULT.what, "", DEFAULT.name)];
     let others = cases.iter().map(|c| (c.what, c.options, c.name));
     for (what, options, name) in default.into_iter().chain(others) {
         let cells = KNOWN
             .iter()
             .map(|beam| percent(outcomes.get(&(name, *beam)).and_then(Outcome::error)));
         let errors = errors(outcomes, name);
-        let mean = (errors.len() == KNOWN.len())
-            .then(|| errors.iter().map(|e| e.abs()).sum::<f64>() / errors.len() as f64);
-        let mean = fixed(mean.map(|m| 100.0 * m), 1);
+        let complete = errors.len() == KNOWN.len();
+        let mean = complete.then(|| 100.0 * mean(&errors, f64::abs));
+        let mean = fixed(mean, 1);
         let first = [
             what.to_owned(),
             if options.is_empty() {

@@ -1,5 +1,5 @@
-//! Runs the beams as `docs/accuracy.md` shows them and writes its tables: some two hours on two idle cores. What has been run
-//! already, by the same program, is not run again.
+//! Runs the beams as `docs/accuracy.md` shows them and writes its tables: some two hours on two idle cores. What the folder
+//! holds is not run again: after a change of the program, take another one.
 //!
 //! Usage: `accuracy RC-BEAMS [FOLDER [tables]]`, the program to run and where its results go; with `tables` nothing is run, what
 //! is missing stays blank, and tables of which all is missing stay as they are.
@@ -25,8 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = arguments
         .next()
         .unwrap_or_else(|| Path::new("results").join("accuracy"));
-    let runs: Vec<(&Case, &'static str)> = DEFAULT
-        .iter()
+    let runs: Vec<(&Case, &'static str)> = std::iter::once(&DEFAULT)
         .chain(&NUMERICS)
         .chain(&PARAMETERS)
         .flat_map(|case| case.beams.iter().map(move |beam| (case, *beam)))
