@@ -14,6 +14,8 @@ pub struct EvaluationContext {
     /// Share of growth of rate-dependent history, see
     /// [`PointContext::relaxation`](crate::material::PointContext::relaxation).
     pub relaxation: f64,
+    /// Whether the symmetric part (K + K^T)/2 of the stiffness will do, see [`Element::fills_symmetric_part`].
+    pub symmetric_part: bool,
 }
 
 impl EvaluationContext {
@@ -22,6 +24,7 @@ impl EvaluationContext {
         Self {
             operator,
             relaxation: 1.0,
+            symmetric_part: false,
         }
     }
 
@@ -30,6 +33,7 @@ impl EvaluationContext {
         Self {
             operator: Operator::None,
             relaxation: 0.0,
+            symmetric_part: false,
         }
     }
 }
@@ -43,7 +47,8 @@ pub struct ElementSystem<'a> {
     pub force: &'a mut [f64],
     /// Stiffness (N/mm), `n x n` row-major, zeroed by the caller; empty when
     /// [`EvaluationContext::operator`] is [`Operator::None`]. A symmetric element
-    /// ([`Element::unsymmetric`] false) needs to fill the upper triangle (j >= i) only.
+    /// ([`Element::unsymmetric`] false) needs to fill the upper triangle (j >= i) only, and so does one that
+    /// [fills the symmetric part](Element::fills_symmetric_part) where that is asked for.
     pub stiffness: &'a mut [f64],
 }
 
@@ -178,6 +183,12 @@ pub trait Element: Debug + Send + Sync {
 
     /// Whether the stiffness for [`Operator::Tangent`] can be unsymmetric.
     fn unsymmetric(&self) -> bool {
+        false
+    }
+
+    /// Whether an unsymmetric element fills the upper triangle of its symmetric part, which takes it less, where
+    /// [`EvaluationContext::symmetric_part`] will do. The assembly takes that part itself from one that does not.
+    fn fills_symmetric_part(&self) -> bool {
         false
     }
 

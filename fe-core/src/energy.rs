@@ -9,7 +9,7 @@
 
 use rayon::prelude::*;
 
-use crate::element::{ElementError, ElementSystem, EvaluationContext, PointSample};
+use crate::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
 use crate::kinematics::{Kinematics, Solid};
 use crate::model::{Conditions, Model, ModelError};
 use crate::voigt::{principal, stress_along, stress_tensor};
@@ -29,6 +29,17 @@ impl PartEnergy {
     pub fn dissipated(&self) -> f64 {
         self.work - self.stored
     }
+}
+
+/// What an element is like at the state to be weighed.
+#[derive(Debug, Clone, Copy)]
+pub struct ElementAt<'s> {
+    /// Its DOFs.
+    pub dofs: &'s [u32],
+    /// Its internal variables.
+    pub state: &'s [f64],
+    /// Its internal force (N), if it is known.
+    pub force: Option<&'s [f64]>,
 }
 
 /// What one element was like at a state.
@@ -97,7 +108,7 @@ impl Ledger {
         self.at.external = vec![0.0; u.len()];
     }
 
-    /// Weighs an equilibrium, in which element e has the internal variables `state(e)`, against the last one settled.
+    /// Weighs an equilibrium, in which element e is like `element(e)`, against the last one settled.
     ///
     /// # Errors
     ///
@@ -107,7 +118,7 @@ impl Ledger {
         model: &Model,
         conditions: &Conditions,
         (lambda, u): (f64, &[f64]),
-        state: impl Fn(usize) -> &'s [f64] + Sync,
+        element: impl Fn(usize) -> ElementAt<'s> + Sync,
     ) -> Result<Change, ModelError> {
         self.at.displacement.resize(u.len(), 0.0);
         self.at.external.resize(u.len(), 0.0);
@@ -121,20 +132,14 @@ impl Ledger {
             .zip(&self.elements)
             .enumerate()
             .try_for_each(|(e, (now, seen))| {
-                let (own, old) = (model.gather(e, u), model.gather(e, before));
-                now.follow(seen, model, e, (&old, &own), state(e))
+                now.follow(seen, model.elements()[e].as_ref(), (before, u), element(e))
                     .map_err(|source| model.locate(e, source))
             })?;
         let mut external = vec![0.0; u.len()];
         conditions.external(lambda, &mut external);
         let mut internal = vec![0.0; u.len()];
-        for (element, now) in model.elements().iter().zip(&self.weighed) {
-            for (d, f) in model
-                .dofs()
-                .element_dofs(element.as_ref())
-                .iter()
-                .zip(&now.force)
-            {
+        for (e, now) in self.weighed.iter().enumerate() {
+            for (d, f) in element(e).dofs.iter().zip(&now.force) {
                 internal[*d as usize] += f;
             }
         }
@@ -202,27 +207,31 @@ impl Seen {
     fn follow(
         &mut self,
         before: &Self,
-        model: &Model,
-        e: usize,
-        (old, u): (&[f64], &[f64]),
-        state: &[f64],
+        element: &dyn Element,
+        (old, new): (&[f64], &[f64]),
+        at: ElementAt<'_>,
     ) -> Result<(), ElementError> {
-        let element = &model.elements()[e];
+        let u: Vec<f64> = at.dofs.iter().map(|&d| new[d as usize]).collect();
         self.force.clear();
-        self.force.resize(u.len(), 0.0);
-        let mut trial = state.to_vec();
-        let system = ElementSystem {
-            force: &mut self.force,
-            stiffness: &mut [],
-        };
-        element.evaluate(u, state, &mut trial, &EvaluationContext::frozen(), system)?;
-        let mut work = before.energy.work;
-        for i in 0..u.len() {
-            let last = before.force.get(i).copied().unwrap_or(0.0);
-            work += 0.5 * (last + self.force[i]) * (u[i] - old[i]);
+        if let Some(force) = at.force {
+            self.force.extend_from_slice(force);
+        } else {
+            self.force.resize(u.len(), 0.0);
+            let mut trial = at.state.to_vec();
+            let system = ElementSystem {
+                force: &mut self.force,
+                stiffness: &mut [],
+            };
+            let frozen = EvaluationContext::frozen();
+            element.evaluate(&u, at.state, &mut trial, &frozen, system)?;
         }
-        let half: f64 = self.force.iter().zip(u).map(|(f, u)| 0.5 * f * u).sum();
-        let stored = element.free_energy(u, state).unwrap_or(half);
+        let mut work = before.energy.work;
+        for (i, &d) in at.dofs.iter().enumerate() {
+            let last = before.force.get(i).copied().unwrap_or(0.0);
+            work += 0.5 * (last + self.force[i]) * (u[i] - old[d as usize]);
+        }
+        let half: f64 = self.force.iter().zip(&u).map(|(f, u)| 0.5 * f * u).sum();
+        let stored = element.free_energy(&u, at.state).unwrap_or(half);
         self.energy = PartEnergy { work, stored };
         Ok(())
     }

@@ -57,6 +57,23 @@ pub fn free_energy<K: Kinematics>(
     })
 }
 
+/// Whether every point, given by its strain, unloads along its secant to the origin: the [`free_energy`] of an element is
+/// then half the product of its forces and displacements.
+pub fn unload_to_origin<K: Kinematics>(
+    law: &dyn Material<K>,
+    band_width: f64,
+    state: &[f64],
+    strains: &[K::Vector],
+) -> bool {
+    let n = law.state_len();
+    let ctx = context(band_width, &EvaluationContext::frozen());
+    strains.iter().enumerate().all(|(point, strain)| {
+        let own = &state[point * n..(point + 1) * n];
+        law.free_energy(strain, own, &ctx).is_none()
+            && law.report(strain, own).plastic_strain == [0.0; 6]
+    })
+}
+
 /// 1/2 sigma : (eps - eps_p).
 fn along_secant<K: Kinematics>(
     law: &dyn Material<K>,
@@ -92,21 +109,21 @@ pub fn sample<K: Kinematics>(
 ) -> Result<(), ElementError> {
     let n = law.state_len();
     let ctx = context(band_width, &EvaluationContext::frozen());
-    let mut scratch = vec![0.0; n];
-    for (point, (position, volume, strain)) in points.enumerate() {
-        let own = &state[point * n..(point + 1) * n];
-        let response = law
-            .update(&strain, own, &mut scratch, &ctx)
-            .map_err(|source| ElementError::Material { point, source })?;
+    let points: Vec<_> = points.collect();
+    let strains: Vec<K::Vector> = points.iter().map(|p| p.2).collect();
+    let mut scratch = vec![0.0; n * points.len()];
+    law.update_many(&strains, (state, &mut scratch), &ctx, &mut |p, response| {
+        let (position, volume, strain) = &points[p];
+        let own = &state[p * n..(p + 1) * n];
         visit(PointSample {
-            position,
-            volume,
-            strain: K::components(&strain),
+            position: *position,
+            volume: *volume,
+            strain: K::components(strain),
             stress: K::components(&response.stress),
-            report: law.report(&strain, own),
+            report: law.report(strain, own),
             state_vars: law.state_vars(),
             state: own,
         });
-    }
-    Ok(())
+    })
+    .map_err(|(point, source)| ElementError::Material { point, source })
 }

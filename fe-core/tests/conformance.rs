@@ -205,6 +205,13 @@ fn an_unsymmetric_stiffness_that_is_no_derivative_is_found() {
 }
 
 #[test]
+fn a_promised_symmetric_part_that_is_not_filled_is_found() {
+    let found = element_failure(Flaw::None, Flaw::PromisesSymmetricPart);
+    let expected = matches!(found, CheckFailure::SymmetricPart { .. });
+    assert!(expected, "{found}");
+}
+
+#[test]
 fn an_element_held_in_space_is_found() {
     let found = element_failure(Flaw::None, Flaw::Grounded);
     let CheckFailure::RigidBody { motion, .. } = found else {

@@ -202,8 +202,15 @@ impl Element for Hex20 {
                 stresses[p] = response.stress;
                 tangents[p] = response.tangent;
             })?;
-            let symmetric = !(self.unsymmetric() && ctx.operator == Operator::Tangent);
-            kernel::stiffness(&self.points, &tangents[..count], symmetric, out.stiffness);
+            let tangents = &mut tangents[..count];
+            let unsymmetric = self.unsymmetric() && ctx.operator == Operator::Tangent;
+            if unsymmetric && ctx.symmetric_part {
+                for d in &mut *tangents {
+                    *d = 0.5 * (*d + d.transpose());
+                }
+            }
+            let symmetric = ctx.symmetric_part || !unsymmetric;
+            kernel::stiffness(&self.points, tangents, symmetric, out.stiffness);
         }
         let force = kernel::force(&self.points, stresses);
         for a in 0..20 {
@@ -222,14 +229,26 @@ impl Element for Hex20 {
         self.law.unsymmetric_tangent()
     }
 
+    fn fills_symmetric_part(&self) -> bool {
+        true
+    }
+
     fn latch(&self, trial: &[f64], base: &mut [f64]) {
         points::latch(self.law.as_ref(), trial, base);
     }
 
     fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
         let u = kernel::by_direction(u);
-        let points = self.points.iter().map(|p| (p.1, kernel::strain(p, &u)));
-        points::free_energy(self.law.as_ref(), self.band_width, state, points)
+        let mut strains = [Vector6::zeros(); MAX_POINTS];
+        let strains = &mut strains[..self.points.len()];
+        kernel::strains(&self.points, &u, strains);
+        let law = self.law.as_ref();
+        if points::unload_to_origin(law, self.band_width, state, strains) {
+            return None;
+        }
+        let volumes = self.points.iter().map(|p| p.1);
+        let points = volumes.zip(strains.iter().copied());
+        points::free_energy(law, self.band_width, state, points)
     }
 
     fn sample(
@@ -238,9 +257,12 @@ impl Element for Hex20 {
         state: &[f64],
         visit: &mut dyn FnMut(PointSample<'_>),
     ) -> Result<(), ElementError> {
-        let u = kernel::by_direction(u);
+        let mut strains = [Vector6::zeros(); MAX_POINTS];
+        kernel::strains(&self.points, &kernel::by_direction(u), &mut strains);
         let places = self.points.iter().zip(&self.positions);
-        let points = places.map(|(p, x)| (*x, p.1, kernel::strain(p, &u)));
+        let points = places
+            .zip(strains)
+            .map(|((p, x), strain)| (*x, p.1, strain));
         points::sample(self.law.as_ref(), self.band_width, state, points, visit)
     }
 }

@@ -86,6 +86,10 @@ impl Element for Installed {
         self.element.unsymmetric()
     }
 
+    fn fills_symmetric_part(&self) -> bool {
+        self.element.fills_symmetric_part()
+    }
+
     fn latch(&self, trial: &[f64], base: &mut [f64]) {
         self.element.latch(trial, base);
     }

@@ -1,10 +1,10 @@
 //! Vectorised inner loops of the hexahedron: strain, internal force and stiffness.
 //!
 //! B has three non-zeros per column, so w D B is formed from the gradients by component (6 rows, three
-//! displacement directions of 20 nodes), and each 3 x 3 block row of B^T (w D B) is accumulated over the
-//! points in registers; eight points at a time, so that w D B stays in the innermost cache. The loops are
-//! written once and compiled for the vector unit found at run time; they hold no closures, which the compiler may
-//! leave outside and compile for the least machine.
+//! displacement directions), for as many nodes as a vector holds, so that it stays in the innermost cache; 3 x 3
+//! blocks of B^T (w D B) are accumulated over the points in registers. The loops are written once and compiled for
+//! the vector unit found at run time; they hold no closures, which the compiler may leave outside and compile for the
+//! least machine.
 
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
@@ -13,8 +13,6 @@ use pulp::{Arch, Simd, WithSimd};
 pub(crate) const PAD: usize = 24;
 /// Most points of a rule.
 pub(crate) const MAX_POINTS: usize = 27;
-/// Points treated together.
-const CHUNK: usize = 8;
 
 /// Gradients dN/dx, dN/dy, dN/dz (1/mm) of the 20 nodes at one point, by direction.
 pub(crate) type Gradients = [[f64; PAD]; 3];
@@ -40,13 +38,6 @@ pub(crate) fn by_direction(u: &[f64]) -> Gradients {
 /// Strains B u (Voigt, engineering shear) at the points.
 pub(crate) fn strains(points: &[Point], u: &Gradients, out: &mut [Vector6<f64>]) {
     Arch::new().dispatch(Strains { points, u, out });
-}
-
-/// Strain B u at one point.
-pub(crate) fn strain(point: &Point, u: &Gradients) -> Vector6<f64> {
-    let mut out = [Vector6::zeros()];
-    strains(std::slice::from_ref(point), u, &mut out);
-    out[0]
 }
 
 struct Strains<'a> {
@@ -164,101 +155,122 @@ impl WithSimd for Stiffness<'_> {
     type Output = ();
 
     // Inlining is what compiles the body for the vector unit of the caller.
-    #[allow(clippy::inline_always, clippy::large_stack_arrays)]
+    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let mut db = [[[[0.0_f64; PAD]; 3]; 6]; CHUNK];
-        let mut sums: Blocks = [[[[0.0; PAD]; 3]; 3]; 20];
-        let chunks = self.points.chunks(CHUNK).zip(self.tangents.chunks(CHUNK));
-        for (points, tangents) in chunks {
-            products(simd, points, tangents, &mut db);
-            accumulate(simd, points, &db, self.symmetric, &mut sums);
+        // Two rows of blocks take 18 sums, which only the 32 registers of the widest unit hold.
+        if S::F64_LANES == 8 {
+            self.in_rows::<S, 2>(simd);
+        } else {
+            self.in_rows::<S, 1>(simd);
         }
-        for (a, rows) in sums.iter().enumerate() {
-            let first = if self.symmetric { a } else { 0 };
-            for (k, row) in rows.iter().enumerate() {
-                let out = &mut self.out[(3 * a + k) * 60..(3 * a + k + 1) * 60];
-                for b in first..20 {
-                    for l in 0..3 {
-                        out[3 * b + l] += row[l][b];
-                    }
+    }
+}
+
+/// w D B of one point for the nodes of one vector, by Voigt row and displacement direction.
+type Product<S> = [[<S as Simd>::f64s; 3]; 6];
+
+/// Sums of 3 x 3 blocks for the nodes of one vector: direction of the row, of the column.
+type Blocks<S> = [[<S as Simd>::f64s; 3]; 3];
+
+impl Stiffness<'_> {
+    /// Columns of blocks by the vector, rows of blocks `ROWS_AT_ONCE` at a time.
+    #[allow(clippy::inline_always, clippy::large_stack_arrays)]
+    #[inline(always)]
+    fn in_rows<S: Simd, const ROWS_AT_ONCE: usize>(self, simd: S) {
+        let zero = simd.splat_f64s(0.0);
+        let mut db: [Product<S>; MAX_POINTS] = [[[zero; 3]; 6]; MAX_POINTS];
+        let db = &mut db[..self.points.len()];
+        for v in 0..20_usize.div_ceil(S::F64_LANES) {
+            let columns = v * S::F64_LANES..20.min((v + 1) * S::F64_LANES);
+            products(simd, self.points, self.tangents, v, db);
+            let rows = if self.symmetric { columns.end } else { 20 };
+            for a in (0..rows).step_by(ROWS_AT_ONCE) {
+                let blocks = accumulate::<S, ROWS_AT_ONCE>(simd, self.points, db, a);
+                for (a, block) in (a..rows).zip(&blocks) {
+                    let from = if self.symmetric { a } else { 0 };
+                    let columns = columns.start.max(from)..columns.end;
+                    add::<S>(block, (a, v), columns, self.out);
                 }
             }
         }
     }
 }
 
-/// Sums of 3 x 3 blocks of the stiffness: node and direction of the row, direction and node of the column.
-type Blocks = [[[[f64; PAD]; 3]; 3]; 20];
-
-/// w D B of one point, by Voigt row and displacement direction.
-type Product = [[[f64; PAD]; 3]; 6];
-
+/// w D B of the points for the nodes of vector `v`.
 #[allow(clippy::inline_always)]
 #[inline(always)]
-fn products<S: Simd>(simd: S, points: &[Point], tangents: &[Matrix6<f64>], db: &mut [Product]) {
+fn products<S: Simd>(
+    simd: S,
+    points: &[Point],
+    tangents: &[Matrix6<f64>],
+    v: usize,
+    db: &mut [Product<S>],
+) {
     for ((g, w), (d, t)) in points.iter().zip(tangents.iter().zip(db)) {
         let (gx, gy, gz) = (
-            S::as_simd_f64s(&g[0]).0,
-            S::as_simd_f64s(&g[1]).0,
-            S::as_simd_f64s(&g[2]).0,
+            S::as_simd_f64s(&g[0]).0[v],
+            S::as_simd_f64s(&g[1]).0[v],
+            S::as_simd_f64s(&g[2]).0[v],
+        );
+        let (gx, gy, gz) = (
+            simd.mul_f64s(simd.splat_f64s(*w), gx),
+            simd.mul_f64s(simd.splat_f64s(*w), gy),
+            simd.mul_f64s(simd.splat_f64s(*w), gz),
         );
         for i in 0..6 {
             for k in 0..3 {
-                let c = [
-                    simd.splat_f64s(w * d[(i, ROWS[k][0])]),
-                    simd.splat_f64s(w * d[(i, ROWS[k][1])]),
-                    simd.splat_f64s(w * d[(i, ROWS[k][2])]),
-                ];
-                let row = S::as_mut_simd_f64s(&mut t[i][k]).0;
-                for (v, r) in row.iter_mut().enumerate() {
-                    let sum = simd.mul_f64s(c[0], gx[v]);
-                    let sum = simd.mul_add_f64s(c[1], gy[v], sum);
-                    *r = simd.mul_add_f64s(c[2], gz[v], sum);
-                }
+                let sum = simd.mul_f64s(simd.splat_f64s(d[(i, ROWS[k][0])]), gx);
+                let sum = simd.mul_add_f64s(simd.splat_f64s(d[(i, ROWS[k][1])]), gy, sum);
+                t[i][k] = simd.mul_add_f64s(simd.splat_f64s(d[(i, ROWS[k][2])]), gz, sum);
             }
         }
     }
 }
 
-/// Adds B^T (w D B) of the points, block by block.
+/// B^T (w D B) summed over the points: blocks of the rows of `N` nodes from `a` on.
 #[allow(clippy::inline_always)]
 #[inline(always)]
-fn accumulate<S: Simd>(
+fn accumulate<S: Simd, const N: usize>(
     simd: S,
     points: &[Point],
-    db: &[Product],
-    symmetric: bool,
-    out: &mut Blocks,
-) {
-    let lanes = S::F64_LANES;
-    for a in 0..20 {
-        let first = if symmetric { a / lanes } else { 0 };
-        for v in first..20_usize.div_ceil(lanes) {
-            let mut acc = [[simd.splat_f64s(0.0); 3]; 3];
-            for ((g, _), t) in points.iter().zip(db) {
-                let s = [
-                    simd.splat_f64s(g[0][a]),
-                    simd.splat_f64s(g[1][a]),
-                    simd.splat_f64s(g[2][a]),
-                ];
-                for l in 0..3 {
-                    let mut row = [simd.splat_f64s(0.0); 6];
-                    for i in 0..6 {
-                        row[i] = S::as_simd_f64s(&t[i][l]).0[v];
-                    }
-                    for k in 0..3 {
-                        for d in 0..3 {
-                            acc[k][l] = simd.mul_add_f64s(s[d], row[ROWS[k][d]], acc[k][l]);
-                        }
+    db: &[Product<S>],
+    a: usize,
+) -> [Blocks<S>; N] {
+    let mut sums = [[[simd.splat_f64s(0.0); 3]; 3]; N];
+    for ((g, _), t) in points.iter().zip(db) {
+        for l in 0..3 {
+            for k in 0..3 {
+                for d in 0..3 {
+                    for n in 0..N {
+                        let s = simd.splat_f64s(g[d][a + n]);
+                        sums[n][k][l] = simd.mul_add_f64s(s, t[ROWS[k][d]][l], sums[n][k][l]);
                     }
                 }
             }
-            for k in 0..3 {
-                for l in 0..3 {
-                    let sum = &mut S::as_mut_simd_f64s(&mut out[a][k][l]).0[v];
-                    *sum = simd.add_f64s(*sum, acc[k][l]);
-                }
+        }
+    }
+    sums
+}
+
+/// Adds the blocks of row node `a` and of those `columns` that vector `v` holds.
+#[allow(clippy::inline_always)]
+#[inline(always)]
+fn add<S: Simd>(
+    block: &Blocks<S>,
+    (a, v): (usize, usize),
+    columns: std::ops::Range<usize>,
+    out: &mut [f64],
+) {
+    let mut row = [[0.0_f64; PAD]; 3];
+    for (k, sums) in block.iter().enumerate() {
+        for (l, sum) in sums.iter().enumerate() {
+            S::as_mut_simd_f64s(&mut row[l]).0[v] = *sum;
+        }
+        let out = &mut out[(3 * a + k) * 60..(3 * a + k + 1) * 60];
+        for b in columns.clone() {
+            for l in 0..3 {
+                out[3 * b + l] += row[l][b];
             }
         }
     }
@@ -330,7 +342,9 @@ mod tests {
         }
         let u: Vec<f64> = (0..60).map(value).collect();
         let e = strain_matrix(&g) * nalgebra::SVector::<f64, 60>::from_column_slice(&u);
-        assert!((strain(&(g, 1.0), &by_direction(&u)) - e).norm() < 1e-12);
+        let mut strain = [Vector6::zeros()];
+        strains(&[(g, 1.0)], &by_direction(&u), &mut strain);
+        assert!((strain[0] - e).norm() < 1e-12);
         let s = Vector6::from_fn(|i, _| value(2000 + i));
         let f = strain_matrix(&g).transpose() * s * 0.7;
         let found = force(&[(g, 0.7)], &[s]);

@@ -308,8 +308,8 @@ impl StepControl {
         let known = stage.signs().negative > 0 && !attempt.held;
         let signs = if known && stage.uncounted() + 1 < self.count_every {
             let force = EvaluationContext {
-                operator: Operator::None,
                 relaxation,
+                ..EvaluationContext::new(Operator::None)
             };
             stage.residual(u, lambda, &force)?;
             None

@@ -104,8 +104,8 @@ impl Driver for NewtonRaphson {
         let s = self.settings;
         self.constraint.begin(stage, request.length)?;
         let [tangent, force] = [s.operator, Operator::None].map(|operator| EvaluationContext {
-            operator,
             relaxation: self.relaxation,
+            ..EvaluationContext::new(operator)
         });
         let start = stage.restrict(stage.displacement());
         let mut du = vec![0.0; start.len()];

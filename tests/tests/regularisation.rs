@@ -5,7 +5,7 @@ use std::sync::Arc;
 use fe_core::assembly::{Assembled, Assembler};
 use fe_core::dof::Dof;
 use fe_core::element::EvaluationContext;
-use fe_core::energy::Ledger;
+use fe_core::energy::{ElementAt, Ledger};
 use fe_core::material::Operator;
 use fe_core::model::Conditions;
 use fe_core::state::StateStore;
@@ -49,7 +49,11 @@ fn dissipated(h: f64, angle: f64, rule: HexRule, end: f64) -> f64 {
             .evaluate(&model, &u, &mut state, &ctx, &mut out)
             .unwrap();
         let change = ledger
-            .weigh(&model, &conditions, (1.0, &u), |e| state.trial(e))
+            .weigh(&model, &conditions, (1.0, &u), |e| ElementAt {
+                dofs: assembler.element_dofs(e),
+                state: state.trial(e),
+                force: None,
+            })
             .unwrap();
         sum += change.dissipated();
         ledger.settle();

@@ -12,9 +12,9 @@ use crate::state::StateStore;
 
 use scatter::{NONE, Scatter};
 
-/// Elements evaluated together before their contributions are added in order. The matrices of a batch of
-/// hexahedra, 1.8 MB, stay in cache.
-const BATCH: usize = 64;
+/// Elements that each thread evaluates before their contributions are added in order. The matrices of so many
+/// hexahedra, 460 kB, stay in cache.
+const BATCH: usize = 16;
 
 /// Equation numbers, sparsity pattern and scatter map of a model under given constraints.
 ///
@@ -25,6 +25,8 @@ pub struct Assembler {
     equation: Vec<u32>,
     free: Vec<u32>,
     element_dofs: Vec<Vec<u32>>,
+    /// Where the forces of each element begin, and where those of the last end.
+    force_starts: Vec<usize>,
     pattern: Sparsity,
     scatter: Vec<Scatter>,
     rate: Vec<f64>,
@@ -50,6 +52,8 @@ pub struct Assembled {
     /// K_fc p: force (N) on the free equations per unit of the load factor, which moves the prescribed
     /// pattern p.
     pub coupling: Vec<f64>,
+    /// Internal forces (N) of the elements, see [`Assembler::force_range`].
+    pub element_forces: Vec<f64>,
 }
 
 impl Assembler {
@@ -81,12 +85,21 @@ impl Assembler {
             .par_iter()
             .map(|eq| Scatter::new(&pattern, eq))
             .collect();
+        let ends = element_dofs.iter().scan(0, |end, dofs| {
+            *end += dofs.len();
+            Some(*end)
+        });
+        let force_starts = std::iter::once(0).chain(ends).collect();
         let unsymmetric = model.elements().iter().any(|e| e.unsymmetric());
-        let slots = vec![Slot::default(); BATCH.min(model.elements().len())];
+        let slots = vec![
+            Slot::default();
+            (BATCH * rayon::current_num_threads()).min(model.elements().len())
+        ];
         Self {
             equation,
             free,
             element_dofs,
+            force_starts,
             pattern,
             scatter,
             rate,
@@ -108,6 +121,16 @@ impl Assembler {
     /// Rate of the prescribed pattern on every DOF (mm per unit of the load factor), zero on free ones.
     pub fn rate(&self) -> &[f64] {
         &self.rate
+    }
+
+    /// DOFs of an element.
+    pub fn element_dofs(&self, element: usize) -> &[u32] {
+        &self.element_dofs[element]
+    }
+
+    /// Where the forces of an element are in [`Assembled::element_forces`].
+    pub fn force_range(&self, element: usize) -> std::ops::Range<usize> {
+        self.force_starts[element]..self.force_starts[element + 1]
     }
 
     /// Whether a DOF is constrained.
@@ -136,9 +159,10 @@ impl Assembler {
         out: &mut Assembled,
     ) -> Result<(), ModelError> {
         let with_matrix = ctx.operator != Operator::None;
-        let unsymmetric = self.unsymmetric && ctx.operator == Operator::Tangent;
-        out.internal.clear();
-        out.internal.resize(self.equation.len(), 0.0);
+        let tangent = self.unsymmetric && ctx.operator == Operator::Tangent;
+        let unsymmetric = tangent && !ctx.symmetric_part;
+        reset(&mut out.internal, self.equation.len());
+        out.element_forces.clear();
         if with_matrix {
             let nnz = self.pattern.nnz();
             reset(&mut out.matrix.lower, nnz);
@@ -147,8 +171,9 @@ impl Assembler {
         }
         let (offsets, base, trial) = state.split();
         let mut rest = trial;
-        for first in (0..model.elements().len()).step_by(BATCH) {
-            let batch = first..(first + BATCH).min(model.elements().len());
+        let together = self.slots.len().max(1);
+        for first in (0..model.elements().len()).step_by(together) {
+            let batch = first..(first + together).min(model.elements().len());
             let mut jobs: Vec<Job<'_>> = Vec::with_capacity(batch.len());
             for (slot, e) in self.slots.iter_mut().zip(batch.clone()) {
                 let (own, tail) = rest.split_at_mut(offsets[e + 1] - offsets[e]);
@@ -172,12 +197,18 @@ impl Assembler {
             }
             for (k, e) in batch.enumerate() {
                 let dofs = &self.element_dofs[e];
+                out.element_forces.extend_from_slice(&self.slots[k].force);
                 for (&d, f) in dofs.iter().zip(&self.slots[k].force) {
                     out.internal[d as usize] += f;
                 }
                 if with_matrix {
-                    let full = unsymmetric && model.elements()[e].unsymmetric();
-                    self.add_matrix(e, &self.slots[k].stiffness, full, out);
+                    let element = &model.elements()[e];
+                    let full = tangent && element.unsymmetric();
+                    let stiffness = &mut self.slots[k].stiffness;
+                    if full && !unsymmetric && !element.fills_symmetric_part() {
+                        fill_symmetric_part(stiffness, dofs.len());
+                    }
+                    self.add_matrix(e, &self.slots[k].stiffness, full && unsymmetric, out);
                 }
             }
         }
@@ -251,6 +282,15 @@ impl Job<'_> {
             stiffness: matrix,
         };
         model.elements()[self.element].evaluate(local, committed, self.trial, ctx, out)
+    }
+}
+
+/// Puts the symmetric part of an `n` x `n` matrix into its upper triangle.
+fn fill_symmetric_part(matrix: &mut [f64], n: usize) {
+    for i in 0..n {
+        for j in i + 1..n {
+            matrix[i * n + j] = matrix[i * n + j].midpoint(matrix[j * n + i]);
+        }
     }
 }
 

@@ -7,6 +7,9 @@ use super::settings::ElementCheck;
 use crate::element::{Element, ElementSystem, EvaluationContext};
 use crate::material::Operator;
 
+/// Share of the norm of a matrix by which another order of its sums may differ.
+const ROUNDING: f64 = 1e-13;
+
 /// An element on one path.
 #[derive(Debug)]
 pub(super) struct Drive<'a> {
@@ -51,23 +54,32 @@ impl<'a> Drive<'a> {
 
     /// One evaluation; `trial` holds `junk` before.
     fn evaluate(&self, u: &[f64], operator: Operator, junk: f64) -> Result<Answer, CheckFailure> {
-        let n = self.n;
+        let ctx = EvaluationContext {
+            relaxation: self.check.relaxation,
+            ..EvaluationContext::new(operator)
+        };
+        self.evaluate_in(u, &ctx, junk)
+    }
+
+    fn evaluate_in(
+        &self,
+        u: &[f64],
+        ctx: &EvaluationContext,
+        junk: f64,
+    ) -> Result<Answer, CheckFailure> {
+        let (n, operator) = (self.n, ctx.operator);
         let entries = if operator == Operator::None { 0 } else { n * n };
         let mut answer = Answer {
             force: vec![0.0; n],
             stiffness: vec![0.0; entries],
             state: vec![junk; self.base.len()],
         };
-        let ctx = EvaluationContext {
-            operator,
-            relaxation: self.check.relaxation,
-        };
         let out = ElementSystem {
             force: &mut answer.force,
             stiffness: &mut answer.stiffness,
         };
         self.element
-            .evaluate(u, &self.base, &mut answer.state, &ctx, out)
+            .evaluate(u, &self.base, &mut answer.state, ctx, out)
             .map_err(|source| CheckFailure::element(self.place, source))?;
         if !answer.stiffness.is_empty() && !self.element.unsymmetric() {
             for i in 0..n {
@@ -132,7 +144,38 @@ impl<'a> Drive<'a> {
             equal(self.place, &first.force, &other.force, between, force_label)?;
             equal(self.place, &first.state, &other.state, between, state_label)?;
         }
+        if self.element.unsymmetric() && self.element.fills_symmetric_part() {
+            self.symmetric_part(u, &first)?;
+        }
         Ok(first)
+    }
+
+    /// The symmetric part asked for is that of the stiffness.
+    fn symmetric_part(&self, u: &[f64], whole: &Answer) -> Result<(), CheckFailure> {
+        let ctx = EvaluationContext {
+            relaxation: self.check.relaxation,
+            symmetric_part: true,
+            ..EvaluationContext::new(Operator::Tangent)
+        };
+        let part = self.evaluate_in(u, &ctx, f64::NAN)?.stiffness;
+        let limit = ROUNDING * norm(&whole.stiffness);
+        for row in 0..self.n {
+            for column in row..self.n {
+                let [ij, ji] = [row * self.n + column, column * self.n + row];
+                let expected = whole.stiffness[ij].midpoint(whole.stiffness[ji]);
+                let given = part[ij];
+                if given.is_nan() || (given - expected).abs() > limit {
+                    return Err(CheckFailure::SymmetricPart {
+                        place: self.place,
+                        row,
+                        column,
+                        given,
+                        expected,
+                    });
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Resultant of the nodal forces conjugate to a motion, relative to the sum of its terms.

@@ -15,6 +15,7 @@ use crate::element::Element;
 ///   element has the displacements for them.
 /// - Two calls, with NaN and with numbers in `trial` before, answer the same to the last bit, and all of
 ///   it finite; asked for forces only, the element gives the same forces and state.
+/// - Where it [fills the symmetric part](Element::fills_symmetric_part), that is (K + K^T)/2.
 /// - The nodal forces have neither a resultant force nor a moment.
 /// - The stiffness is the derivative of the force, by central differences, and thereby symmetric where
 ///   [`Element::unsymmetric`] promises it (only the upper triangle is read then). Kinks are treated as in

@@ -137,6 +137,23 @@ pub enum CheckFailure {
         /// Allowed disagreement.
         limit: f64,
     },
+    /// An element fills something else than the symmetric part it was asked for.
+    #[error(
+        "{place}: the symmetric part of the tangent has {given} at ({row}, {column}), but the tangent gives \
+         {expected}"
+    )]
+    SymmetricPart {
+        /// Where.
+        place: Place,
+        /// Row.
+        row: usize,
+        /// Column.
+        column: usize,
+        /// Entry filled.
+        given: f64,
+        /// That of (K + K^T)/2.
+        expected: f64,
+    },
     /// The secant operator is not positive definite.
     #[error("{place}: pivot {index} of the secant operator is {pivot:.3e}, not positive")]
     SecantIndefinite {

@@ -77,6 +77,8 @@ pub enum Flaw {
     OtherStressWithoutOperator,
     Grounded,
     Unsymmetric,
+    /// Unsymmetric, and promises a symmetric part that it does not fill.
+    PromisesSymmetricPart,
     Refuses,
     Latches,
 }
@@ -294,7 +296,11 @@ impl Element for Truss {
 
     /// The unsymmetric part of the stiffness is made up: it serves the tests of assembly.
     fn unsymmetric(&self) -> bool {
-        self.flaw == Flaw::Unsymmetric
+        matches!(self.flaw, Flaw::Unsymmetric | Flaw::PromisesSymmetricPart)
+    }
+
+    fn fills_symmetric_part(&self) -> bool {
+        self.flaw == Flaw::PromisesSymmetricPart
     }
 
     fn latch(&self, trial: &[f64], base: &mut [f64]) {

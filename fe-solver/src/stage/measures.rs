@@ -1,7 +1,7 @@
 //! What is read off the last evaluation of a stage: residual, loads, stability.
 
 use fe_core::element::EvaluationContext;
-use fe_core::energy::Change;
+use fe_core::energy::{Change, ElementAt};
 use fe_core::material::Operator;
 
 use serde::{Deserialize, Serialize};
@@ -96,19 +96,25 @@ impl Stage<'_> {
     /// [`SolverError::Model`].
     pub fn weigh(&mut self, u: &[f64], lambda: f64) -> Result<Change, SolverError> {
         let (model, conditions) = (self.model, &self.conditions);
-        let state = &*self.state;
+        let (assembler, state) = (&self.assembler, &*self.state);
+        let forces = &self.assembled.element_forces;
         if !self.opened {
             let start = (self.lambda, self.displacement.as_slice());
             self.ledger.rebase(start.1);
-            self.ledger
-                .weigh(model, conditions, start, |e| state.committed(e))?;
+            self.ledger.weigh(model, conditions, start, |e| ElementAt {
+                dofs: assembler.element_dofs(e),
+                state: state.committed(e),
+                force: None,
+            })?;
             self.ledger.settle();
             self.opened = true;
         }
         let here = (lambda, u);
-        Ok(self
-            .ledger
-            .weigh(model, conditions, here, |e| state.trial(e))?)
+        Ok(self.ledger.weigh(model, conditions, here, |e| ElementAt {
+            dofs: assembler.element_dofs(e),
+            state: state.trial(e),
+            force: Some(&forces[assembler.force_range(e)]),
+        })?)
     }
 
     /// Signs of the symmetric part (K + K^T)/2 of the consistent tangent at `u`: no negative pivots in
@@ -130,15 +136,9 @@ impl Stage<'_> {
         let tangent = EvaluationContext {
             operator: Operator::Tangent,
             relaxation,
+            symmetric_part: true,
         };
         self.residual(u, lambda, &tangent)?;
-        let matrix = &mut self.assembled.matrix;
-        if !matrix.is_symmetric() {
-            for (l, u) in matrix.lower.iter_mut().zip(&matrix.upper) {
-                *l = 0.5 * (*l + u);
-            }
-            matrix.upper.clear();
-        }
         self.linear.expect(self.signs.negative > 0);
         let factorised = self.factorise();
         // The next matrix is an operator of the driver.
