@@ -15,7 +15,7 @@ pub struct RunOptions {
     #[arg(long, value_enum, default_value_t)]
     pub preset: Preset,
 
-    /// Elements along, up and across the half beam; without it, 60x4x1
+    /// Elements along, up and across the half beam, of which free ends get fewer; without it, 60x4x1
     #[arg(long, value_name = "NXxNYxNZ")]
     pub mesh: Option<MeshSize>,
 

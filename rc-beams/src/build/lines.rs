@@ -80,6 +80,36 @@ pub fn axis_lines(
     Some(lines)
 }
 
+/// Largest number of cells that become one at a free end.
+const COARSEST: usize = 4;
+
+/// Grid lines with fewer of them beyond `loaded`, the stretch of the axis with all plates: the first cell stays, then two, and
+/// from there on four become one. A bar is anchored there, and nothing else happens. An end with one of the `edges` stays as
+/// it is.
+pub fn coarse_ends(lines: &[f64], loaded: [f64; 2], edges: &[f64]) -> Vec<f64> {
+    let [low, high] = loaded;
+    let beyond = |x: f64, sign: f64| sign * x > sign * if sign > 0.0 { high } else { low } + SAME;
+    let thinned = |sign: f64, outwards: &mut dyn Iterator<Item = f64>| -> Vec<f64> {
+        let end: Vec<f64> = outwards.filter(|&x| beyond(x, sign)).collect();
+        if edges.iter().any(|&x| beyond(x, sign)) {
+            return end;
+        }
+        let mut kept = Vec::new();
+        let (mut at, mut together) = (0, 1);
+        while at < end.len() {
+            at = (at + together).min(end.len());
+            kept.push(end[at - 1]);
+            together = (2 * together).min(COARSEST);
+        }
+        kept
+    };
+    let left = thinned(-1.0, &mut lines.iter().rev().copied());
+    let right = thinned(1.0, &mut lines.iter().copied());
+    let between = lines.iter().copied();
+    let between = between.filter(|&x| !beyond(x, -1.0) && !beyond(x, 1.0));
+    left.into_iter().rev().chain(between).chain(right).collect()
+}
+
 /// `n` equal cells from `low` to `high`.
 pub fn equal_lines(low: f64, high: f64, n: usize) -> Vec<f64> {
     (0..=n)
@@ -114,6 +144,20 @@ mod tests {
         assert_eq!(axis_lines(3050.0, &patches, &[], 32).unwrap().len(), 33);
         assert_eq!(axis_lines(3050.0, &patches, &[], 88).unwrap().len(), 89);
         assert!(axis_lines(3050.0, &patches, &[], 12).is_none());
+    }
+
+    /// The 11 cells of an overhang become 1 + 2 + 4 + 4; with the edge of a sheet there they stay.
+    #[test]
+    fn free_ends_are_coarse() {
+        let lines = equal_lines(0.0, 30.0, 30);
+        let thinned = coarse_ends(&lines, [11.0, 24.0], &[15.0]);
+        assert_eq!(thinned[..5], [0.0, 4.0, 8.0, 10.0, 11.0]);
+        assert_eq!(thinned[5..18], lines[12..25]);
+        assert_eq!(thinned[18..], [25.0, 27.0, 30.0]);
+        let covered = coarse_ends(&lines, [11.0, 24.0], &[5.0, 15.0]);
+        assert_eq!(covered[..12], lines[..12]);
+        assert_eq!(covered[25..], [25.0, 27.0, 30.0]);
+        assert_eq!(coarse_ends(&lines, [0.0, 30.0], &[]), lines);
     }
 
     /// Edges of sheets are lines too, in gaps and within plates.

@@ -3,7 +3,7 @@
 use fe_core::grid::GridBuilder;
 use fe_core::mesh::Mesh;
 
-use super::lines::{Patch, axis_lines, equal_lines};
+use super::lines::{Patch, axis_lines, coarse_ends, equal_lines};
 use super::{BuildError, ModelSettings};
 use crate::spec::{Face, Specimen};
 
@@ -41,6 +41,7 @@ pub(super) fn mesh(specimen: &Specimen, settings: &ModelSettings) -> Result<Mesh
         })
     };
     let xs = lines(0, length, &patches, nx)?;
+    let xs = coarse_ends(&xs, loaded(&patches), &sheet_edges(specimen)[0]);
     let ys = lines(1, height, &[], ny)?;
     let zs = lines(2, specimen.half_width_mm(), &[], nz)?;
     let mut grid = GridBuilder::new();
@@ -69,6 +70,16 @@ pub(super) fn mesh(specimen: &Specimen, settings: &ModelSettings) -> Result<Mesh
         grid.add_box(&load_plate(i), &own, &plate, &zs);
     }
     Ok(grid.finish()?)
+}
+
+/// The stretch of the axis with all plates and stubs (mm).
+fn loaded(patches: &[Patch]) -> [f64; 2] {
+    patches
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
+            let half = 0.5 * p.length;
+            [low.min(p.centre - half), high.max(p.centre + half)]
+        })
 }
 
 /// Elements along and over the height of a bare beam.

@@ -45,7 +45,7 @@ fn the_supports_carry_the_weight() {
     assert!((beam.measures.load_kn(&reactions) - 3.477).abs() < 1e-3);
 }
 
-/// Every specimen builds on its mesh: all elements of concrete (more with a stub), bars of the full length cut
+/// Every specimen builds on its mesh: full columns of concrete, no more than in an even grid (and a stub), bars of the full length cut
 /// once at every face, a gauge on every stirrup of the test span and wherever the specimen has one on its sheets.
 #[test]
 fn every_specimen_builds() {
@@ -53,7 +53,9 @@ fn every_specimen_builds() {
         let (specimen, beam) = (specimen(name), beam(name));
         let stubs = specimen.supports.iter().any(|s| s.stub.is_some());
         let [nx, ny, nz] = super::default_mesh(&specimen);
-        assert_eq!(beam.concrete.len() > nx * ny * nz, stubs, "{name}");
+        let columns = beam.concrete.len() / (ny * nz);
+        let whole = columns <= nx && beam.concrete.len() == columns * ny * nz;
+        assert!(2 * columns > nx && (stubs || whole), "{name}");
         for bar in &beam.bars {
             let [a, b] = bar.ends;
             let expected: f64 = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f64>().sqrt();
