@@ -68,11 +68,22 @@ impl StateStore {
         (&self.offsets, &self.base, &mut self.trial)
     }
 
-    /// Lets every element latch what must not change any more within the step.
-    pub fn latch(&mut self, elements: &[Box<dyn Element>]) {
+    /// Lets every element latch what must not change any more within the step. Returns whether that changes the history of
+    /// the next evaluations.
+    pub fn latch(&mut self, elements: &[Box<dyn Element>]) -> bool {
+        let mut changed = false;
+        let mut before = Vec::new();
         for (e, w) in elements.iter().zip(self.offsets.windows(2)) {
-            e.latch(&self.trial[w[0]..w[1]], &mut self.base[w[0]..w[1]]);
+            let base = &mut self.base[w[0]..w[1]];
+            before.clear();
+            before.extend_from_slice(base);
+            e.latch(&self.trial[w[0]..w[1]], base);
+            changed |= before
+                .iter()
+                .zip(&*base)
+                .any(|(a, b)| a.to_bits() != b.to_bits());
         }
+        changed
     }
 
     /// Makes the trial state the base of the next evaluations, without accepting it: a state passed

@@ -2,9 +2,7 @@
 //!
 //! A step that ends in equilibrium but [creates energy](Change::creates_energy) is refused like one without convergence.
 
-use fe_core::element::EvaluationContext;
 use fe_core::energy::Change;
-use fe_core::material::Operator;
 
 use crate::critical::Signs;
 use crate::driver::{Attempt, Driver, Request};
@@ -307,11 +305,7 @@ impl StepControl {
         let relaxation = attempt.lag.map_or(1.0, |lag| lag.relaxation);
         let known = stage.signs().negative > 0 && !attempt.held;
         let signs = if known && stage.uncounted() + 1 < self.count_every {
-            let force = EvaluationContext {
-                relaxation,
-                ..EvaluationContext::new(Operator::None)
-            };
-            stage.residual(u, lambda, &force)?;
+            stage.settle(u, lambda, relaxation)?;
             None
         } else {
             Some(stage.stability(u, lambda, relaxation)?)

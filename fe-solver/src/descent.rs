@@ -8,7 +8,8 @@
 //! The secant operator of a softening law is stiffer than the law itself, so that a full step, alpha = 1, goes
 //! downhill in energy and falls short of the minimum rather than beyond it: r . du stays positive. Where the law is
 //! stiffer than its secant (an open crack that closes) a full step would overshoot into compression and crush
-//! what it meets; there alpha is shortened until r' . du >= -0.3 r . du, before the history is kept.
+//! what it meets. Such a step is taken back, and taken again with the operator where it led, in which the cracks have
+//! closed; if that overshoots too, alpha is shortened until r' . du >= -0.3 r . du, before the history is kept.
 //!
 //! Where a step fell short, the next one under the same factor reaches as far as this one should have (Barzilai and
 //! Borwein 1988, with K as the metric):
@@ -177,18 +178,25 @@ impl Descent {
         }
     }
 
-    /// One step; returns its factor.
-    fn step(&mut self, stage: &mut Stage<'_>) -> Result<f64, SolverError> {
+    /// Direction du of the present factor, and r . du.
+    fn direction(&mut self, stage: &mut Stage<'_>) -> Result<(Vec<f64>, f64), SolverError> {
         let mut du = self.residual.clone();
         stage.precondition(&mut du)?;
         self.age += 1;
         let slope = dot(&self.residual, &du);
+        Ok((du, slope))
+    }
+
+    /// One step; returns its factor.
+    fn step(&mut self, stage: &mut Stage<'_>) -> Result<f64, SolverError> {
+        let (mut du, mut slope) = self.direction(stage)?;
         let operator = if self.is_due() {
             Operator::Secant
         } else {
             Operator::None
         };
         let mut alpha = self.reach;
+        let mut renewed = false;
         loop {
             let trial: Vec<f64> = self
                 .free
@@ -202,6 +210,14 @@ impl Descent {
                 (self.free, self.residual) = (trial, residual);
                 self.reach = self.reach_after(alpha, slope, there);
                 return Ok(alpha);
+            }
+            if alpha <= 1.0 && !renewed {
+                renewed = true;
+                self.evaluate(stage, &trial, Operator::Secant)?;
+                self.factorise(stage)?;
+                (du, slope) = self.direction(stage)?;
+                alpha = 1.0;
+                continue;
             }
             alpha *= (slope / (slope - there)).clamp(0.1, 0.7);
         }

@@ -60,6 +60,8 @@ pub struct Stage<'m> {
     stable_tangent: bool,
     state: &'m mut StateStore,
     assembled: Assembled,
+    /// Where the last evaluation was made: displacement, load factor and relaxation, unless the history has changed since.
+    evaluated: Option<(Vec<f64>, f64, f64)>,
     external: Vec<f64>,
     start: Vec<f64>,
     displacement: Vec<f64>,
@@ -107,6 +109,7 @@ impl<'m> Stage<'m> {
             stable_tangent: false,
             state,
             assembled: Assembled::default(),
+            evaluated: None,
             lambda: 0.0,
             previous: None,
             accepted_load: 0.0,
@@ -255,7 +258,33 @@ impl<'m> Stage<'m> {
             self.times.assembly += begin.elapsed();
         }
         self.conditions.external(lambda, &mut self.external);
+        let mut kept = self.evaluated.take().map_or_else(Vec::new, |at| at.0);
+        kept.clear();
+        kept.extend_from_slice(u);
+        self.evaluated = Some((kept, lambda, ctx.relaxation));
         Ok(self.unbalanced().collect())
+    }
+
+    /// Makes the last evaluation one at `u` and `lambda` with the given relaxation of histories, unless it is that.
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError::Model`].
+    pub(crate) fn settle(
+        &mut self,
+        u: &[f64],
+        lambda: f64,
+        relaxation: f64,
+    ) -> Result<(), SolverError> {
+        let here = self.evaluated.as_ref();
+        if here.is_some_and(|(v, l, r)| v == u && *l == lambda && *r == relaxation) {
+            return Ok(());
+        }
+        let force = EvaluationContext {
+            relaxation,
+            ..EvaluationContext::new(Operator::None)
+        };
+        self.residual(u, lambda, &force).map(drop)
     }
 
     /// f_ext - f_int of the free equations in the last evaluation.
@@ -357,6 +386,7 @@ impl<'m> Stage<'m> {
     /// Makes `internal` (N, all DOFs) the forces from which loads and reactions are read until the next evaluation.
     pub(crate) fn read_off(&mut self, internal: &[f64]) {
         self.assembled.internal.copy_from_slice(internal);
+        self.evaluated = None;
     }
 
     /// sum_j |K_ij| of the free equations (N/mm) of the last operator, which must be symmetric.
@@ -377,22 +407,27 @@ impl<'m> Stage<'m> {
 
     /// Lets laws latch new cracks found by the last evaluation.
     pub fn latch(&mut self) {
-        self.state.latch(self.model.elements());
+        if self.state.latch(self.model.elements()) {
+            self.evaluated = None;
+        }
     }
 
     /// Makes the trial state the history of the next evaluations without accepting it.
     pub fn advance(&mut self) {
         self.state.advance();
+        self.evaluated = None;
     }
 
     /// Makes the accepted state with `changes` the history of the next evaluations. Returns whether they fit.
     pub(crate) fn set_base(&mut self, changes: &[(u32, f64)]) -> bool {
+        self.evaluated = None;
         self.state.set_base(changes)
     }
 
     /// Forgets the trial state.
     pub fn roll_back(&mut self) {
         self.state.roll_back();
+        self.evaluated = None;
     }
 
     /// Accepts displacement, load factor and the trial state of the last evaluation, which has been
@@ -414,6 +449,7 @@ impl<'m> Stage<'m> {
         self.accepted_load = self.load();
         self.largest_reactions = self.largest_reactions.max(self.reactions());
         self.state.commit();
+        self.evaluated = None;
         self.ledger.settle();
         self.counters.steps += 1;
     }
