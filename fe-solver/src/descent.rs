@@ -65,7 +65,8 @@ pub(crate) struct Descent {
     /// Free displacements (mm).
     pub free: Vec<f64>,
     lambda: f64,
-    residual: Vec<f64>,
+    /// Residual there (N).
+    pub residual: Vec<f64>,
     /// Iterations with the present factor.
     age: usize,
     /// Whether the last step was so short that another operator is needed.

@@ -67,12 +67,14 @@ struct Solve {
 }
 
 /// The operator with which a solve starts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 enum Start {
     /// Another one, evaluated with the first residual.
     Evaluated,
     /// That of the present factor.
     AtHand,
+    /// The same, and this is the residual of the last evaluation, which was made there.
+    Known(Vec<f64>),
 }
 
 /// End of a snap.
@@ -115,16 +117,27 @@ impl SecantAnderson {
         let mut best: Option<(f64, Vec<f64>)> = None;
         let mut iterations = 0_usize;
         let mut halved = (f64::INFINITY, 0_usize);
+        let begin_anew = start == Start::Evaluated;
+        let mut known = match start {
+            Start::Known(r) => Some(r),
+            Start::Evaluated | Start::AtHand => None,
+        };
         loop {
             let rebuild = match iterations {
-                0 => start == Start::Evaluated,
+                0 => begin_anew,
                 n => n.is_multiple_of(self.settings.rebuild_after),
             };
-            let u = stage.compose(&free, lambda);
-            let mut r = stage.residual(&u, lambda, if rebuild { &operator } else { &force })?;
-            stage.latch();
-            let size = stage.measure(&r);
-            log(&size, 1.0)?;
+            let (mut r, size) = if let Some(r) = known.take() {
+                let size = stage.measure(&r);
+                (r, size)
+            } else {
+                let u = stage.compose(&free, lambda);
+                let r = stage.residual(&u, lambda, if rebuild { &operator } else { &force })?;
+                stage.latch();
+                let size = stage.measure(&r);
+                log(&size, 1.0)?;
+                (r, size)
+            };
             if size.relative <= criterion {
                 return Ok(Solve {
                     free,
@@ -248,7 +261,8 @@ impl SecantAnderson {
             }
             near = AGAIN * residual.relative;
             let free = descent.free.clone();
-            let solve = self.solve(stage, free, Start::AtHand, lambda, criterion, log)?;
+            let start = Start::Known(descent.residual.clone());
+            let solve = self.solve(stage, free, start, lambda, criterion, log)?;
             spent += solve.iterations;
             if let Some(residual) = solve.converged {
                 return Ok(Snap {
