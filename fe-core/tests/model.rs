@@ -217,7 +217,8 @@ fn the_state_store_commits_rolls_back_and_latches() {
 
     // The law latches its first variable: the next trial of the step starts from it.
     pull(&mut state, 5e-4);
-    state.latch(model.elements());
+    assert!(state.latch(model.elements()));
+    assert!(!state.latch(model.elements()), "nothing is left to latch");
     pull(&mut state, 1e-4);
     assert_eq!(state.trial(0), [5e-4, 1e-4]);
     assert_eq!(state.committed(0), [2e-4; 2]);
