@@ -117,9 +117,9 @@ impl<L: Material<Interface>> Material<Interface> for Viscous<L> {
         self.law.unsymmetric_tangent()
     }
 
-    fn latch(&self, trial: &[f64], base: &mut [f64]) {
+    fn latch(&self, trial: &[f64], base: &mut [f64]) -> bool {
         let n = self.law.state_len();
-        self.law.latch(&trial[..n], &mut base[..n]);
+        self.law.latch(&trial[..n], &mut base[..n])
     }
 
     fn free_energy(&self, jump: &Vector3<f64>, state: &[f64], ctx: &PointContext) -> Option<f64> {

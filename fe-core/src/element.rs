@@ -193,7 +193,9 @@ pub trait Element: Debug + Send + Sync {
     }
 
     /// See [`Material::latch`](crate::material::Material::latch), for every integration point.
-    fn latch(&self, _trial: &[f64], _base: &mut [f64]) {}
+    fn latch(&self, _trial: &[f64], _base: &mut [f64]) -> bool {
+        false
+    }
 
     /// Recoverable energy (N mm) of the element, if it is known, see [`free_energy`](crate::points::free_energy).
     fn free_energy(&self, _u: &[f64], _state: &[f64]) -> Option<f64> {

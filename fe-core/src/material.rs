@@ -247,8 +247,10 @@ pub trait Material<K: Kinematics>: Debug + Send + Sync {
     }
 
     /// Copies from `trial` into `base` what must not change any more within the step, once it has
-    /// happened: the axes of a new crack. Default: nothing.
-    fn latch(&self, _trial: &[f64], _base: &mut [f64]) {}
+    /// happened: the axes of a new crack. Returns whether there was any. Default: nothing.
+    fn latch(&self, _trial: &[f64], _base: &mut [f64]) -> bool {
+        false
+    }
 
     /// Free energy density psi (MPa = N mm/mm3) at a strain and state, if the law promises
     /// non-negative dissipation: sigma_(n+1) : d_eps - d_psi >= 0 for every step.

@@ -25,13 +25,13 @@ pub fn init_state<K: Kinematics>(law: &dyn Material<K>, state: &mut [f64]) {
 }
 
 /// [`Material::latch`] for every point.
-pub fn latch<K: Kinematics>(law: &dyn Material<K>, trial: &[f64], base: &mut [f64]) {
+pub fn latch<K: Kinematics>(law: &dyn Material<K>, trial: &[f64], base: &mut [f64]) -> bool {
     let n = law.state_len();
-    if n > 0 {
-        for (t, b) in trial.chunks_exact(n).zip(base.chunks_exact_mut(n)) {
-            law.latch(t, b);
-        }
+    if n == 0 {
+        return false;
     }
+    let points = trial.chunks_exact(n).zip(base.chunks_exact_mut(n));
+    points.fold(false, |any, (t, b)| law.latch(t, b) | any)
 }
 
 /// Sum over the points, given as volume (mm3) and strain, of the recoverable energy (N mm): the free energy, or for laws

@@ -72,16 +72,8 @@ impl StateStore {
     /// the next evaluations.
     pub fn latch(&mut self, elements: &[Box<dyn Element>]) -> bool {
         let mut changed = false;
-        let mut before = Vec::new();
         for (e, w) in elements.iter().zip(self.offsets.windows(2)) {
-            let base = &mut self.base[w[0]..w[1]];
-            before.clear();
-            before.extend_from_slice(base);
-            e.latch(&self.trial[w[0]..w[1]], base);
-            changed |= before
-                .iter()
-                .zip(&*base)
-                .any(|(a, b)| a.to_bits() != b.to_bits());
+            changed |= e.latch(&self.trial[w[0]..w[1]], &mut self.base[w[0]..w[1]]);
         }
         changed
     }

@@ -90,8 +90,8 @@ impl Element for Installed {
         self.element.fills_symmetric_part()
     }
 
-    fn latch(&self, trial: &[f64], base: &mut [f64]) {
-        self.element.latch(trial, base);
+    fn latch(&self, trial: &[f64], base: &mut [f64]) -> bool {
+        self.element.latch(trial, base)
     }
 
     fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {

@@ -155,8 +155,8 @@ impl<const N: usize> Element for Sheet<N> {
         self.law.unsymmetric_tangent()
     }
 
-    fn latch(&self, trial: &[f64], base: &mut [f64]) {
-        points::latch(self.law.as_ref(), trial, base);
+    fn latch(&self, trial: &[f64], base: &mut [f64]) -> bool {
+        points::latch(self.law.as_ref(), trial, base)
     }
 
     fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {

@@ -149,8 +149,8 @@ impl Element for Truss3 {
         Ok(())
     }
 
-    fn latch(&self, trial: &[f64], base: &mut [f64]) {
-        points::latch(self.law.as_ref(), trial, base);
+    fn latch(&self, trial: &[f64], base: &mut [f64]) -> bool {
+        points::latch(self.law.as_ref(), trial, base)
     }
 
     fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {

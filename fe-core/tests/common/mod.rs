@@ -177,10 +177,12 @@ impl Material<Axial> for Damage {
         })
     }
 
-    fn latch(&self, trial: &[f64], base: &mut [f64]) {
-        if self.0 == Flaw::Latches {
+    fn latch(&self, trial: &[f64], base: &mut [f64]) -> bool {
+        let latches = self.0 == Flaw::Latches && base[0] != trial[0];
+        if latches {
             base[0] = trial[0];
         }
+        latches
     }
 
     fn free_energy(&self, strain: &Vector1<f64>, state: &[f64], _: &PointContext) -> Option<f64> {
@@ -303,8 +305,8 @@ impl Element for Truss {
         self.flaw == Flaw::PromisesSymmetricPart
     }
 
-    fn latch(&self, trial: &[f64], base: &mut [f64]) {
-        self.law.latch(trial, base);
+    fn latch(&self, trial: &[f64], base: &mut [f64]) -> bool {
+        self.law.latch(trial, base)
     }
 
     fn sample(

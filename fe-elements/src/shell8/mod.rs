@@ -250,11 +250,11 @@ impl Element for Shell8 {
         self.laws.iter().any(|law| law.unsymmetric_tangent())
     }
 
-    fn latch(&self, trial: &[f64], base: &mut [f64]) {
-        for layer in self.layers() {
+    fn latch(&self, trial: &[f64], base: &mut [f64]) -> bool {
+        self.layers().fold(false, |any, layer| {
             let history = layer.history;
-            points::latch(layer.law, &trial[history.clone()], &mut base[history]);
-        }
+            points::latch(layer.law, &trial[history.clone()], &mut base[history]) | any
+        })
     }
 
     fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {

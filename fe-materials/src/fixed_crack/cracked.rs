@@ -6,7 +6,7 @@ use fe_core::voigt::{SHEAR_PAIRS, strain_into, strain_transform, stress_out_of};
 use nalgebra::{Matrix6, Vector6};
 
 use super::shear::{Factor, Retention};
-use super::{FixedCrack, OPERATOR_FLOOR, State, wants_secant};
+use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, State, wants_secant};
 
 impl FixedCrack {
     /// Stress of a cracked point; updates the histories. `onset` tells that the first crack opens in this very
@@ -15,11 +15,12 @@ impl FixedCrack {
         &self,
         strain: &Vector6<f64>,
         state: &mut State,
-        ctx: &PointContext,
+        (ctx, envelopes): (&PointContext, &Envelopes),
         onset: bool,
         out: &mut Response<Solid>,
     ) -> Result<(), MaterialError> {
-        let (tension, compression) = self.envelopes(state, ctx.band_width)?;
+        let tension = self.tension(state, envelopes, ctx.band_width)?;
+        let compression = &envelopes.compression;
         let turning = !state.second;
         if turning {
             state.turn(strain);
@@ -122,7 +123,9 @@ impl FixedCrack {
         state: &State,
         ctx: &PointContext,
     ) -> Option<f64> {
-        let (tension, compression) = self.envelopes(state, ctx.band_width).ok()?;
+        let envelopes = self.envelopes(ctx.band_width).ok()?;
+        let tension = self.tension(state, &envelopes, ctx.band_width).ok()?;
+        let compression = &envelopes.compression;
         let mut state = *state;
         if !state.second {
             state.turn(strain);

@@ -261,7 +261,7 @@ impl FixedCrack {
         strain: &Vector6<f64>,
         (committed, trial): (&[f64], &mut [f64]),
         ctx: &PointContext,
-        known: Option<&Principal>,
+        (envelopes, known): (&Envelopes, Option<&Principal>),
     ) -> Result<Response<Solid>, MaterialError> {
         if let Some(component) = strain.iter().position(|e| !e.is_finite()) {
             return Err(MaterialError::NotFinite {
@@ -278,10 +278,10 @@ impl FixedCrack {
         let intact = onset && {
             let found = known.copied();
             let found = found.unwrap_or_else(|| principal(&strain_tensor(strain)));
-            self.uncracked(found, &mut state, ctx, &mut response)?
+            self.uncracked(found, &mut state, (ctx, envelopes), &mut response)
         };
         if !intact {
-            self.cracked(strain, &mut state, ctx, onset, &mut response)?;
+            self.cracked(strain, &mut state, (ctx, envelopes), onset, &mut response)?;
         }
         state.write(trial);
         Ok(response)
@@ -315,22 +315,35 @@ impl FixedCrack {
         [onset / self.p.young_mpa, other, other]
     }
 
-    fn envelopes(
+    fn envelopes(&self, band_width: f64) -> Result<Envelopes, MaterialError> {
+        Ok(Envelopes {
+            tension: Tension::new(&self.p, self.p.ft_mpa, band_width)?,
+            compression: Compression::new(&self.p, band_width)?,
+        })
+    }
+
+    /// Tension across the axes of a cracked point.
+    fn tension(
         &self,
         state: &State,
+        envelopes: &Envelopes,
         band_width: f64,
-    ) -> Result<([Tension; 3], Compression), MaterialError> {
-        let other = Tension::new(&self.p, self.p.ft_mpa, band_width)?;
+    ) -> Result<[Tension; 3], MaterialError> {
+        let other = envelopes.tension;
         let first = if state.onset == self.p.ft_mpa {
             other
         } else {
             Tension::new(&self.p, state.onset, band_width)?
         };
-        Ok((
-            [first, other, other],
-            Compression::new(&self.p, band_width)?,
-        ))
+        Ok([first, other, other])
     }
+}
+
+/// Envelopes of all points of a crack-band width: tension from the tensile strength, and compression.
+#[derive(Debug, Clone, Copy)]
+struct Envelopes {
+    tension: Tension,
+    compression: Compression,
 }
 
 impl Material<Solid> for FixedCrack {
@@ -349,7 +362,8 @@ impl Material<Solid> for FixedCrack {
         trial: &mut [f64],
         ctx: &PointContext,
     ) -> Result<Response<Solid>, MaterialError> {
-        self.respond(strain, (committed, trial), ctx, None)
+        let envelopes = self.envelopes(ctx.band_width)?;
+        self.respond(strain, (committed, trial), ctx, (&envelopes, None))
     }
 
     /// Principal strains of the uncracked points are found together.
@@ -360,6 +374,7 @@ impl Material<Solid> for FixedCrack {
         ctx: &PointContext,
         take: &mut dyn FnMut(usize, &Response<Solid>),
     ) -> Result<(), (usize, MaterialError)> {
+        let envelopes = self.envelopes(ctx.band_width).map_err(|error| (0, error))?;
         let n = self.state_len();
         let state = |p: usize| p * n..(p + 1) * n;
         for start in (0..strains.len()).step_by(TOGETHER) {
@@ -377,7 +392,7 @@ impl Material<Solid> for FixedCrack {
             for p in start..end {
                 let axes = if uncracked(&p) { next.next() } else { None };
                 let states = (&committed[state(p)], &mut trial[state(p)]);
-                match &self.respond(&strains[p], states, ctx, axes) {
+                match &self.respond(&strains[p], states, ctx, (&envelopes, axes)) {
                     Ok(response) => take(p, response),
                     Err(error) => return Err((p, error.clone())),
                 }
@@ -387,27 +402,28 @@ impl Material<Solid> for FixedCrack {
     }
 
     fn admit(&self, ctx: &PointContext) -> Result<(), MaterialError> {
-        Tension::new(&self.p, self.p.ft_mpa, ctx.band_width)?;
-        Compression::new(&self.p, ctx.band_width)?;
-        Ok(())
+        self.envelopes(ctx.band_width).map(drop)
     }
 
     fn unsymmetric_tangent(&self) -> bool {
         true
     }
 
-    fn latch(&self, trial: &[f64], base: &mut [f64]) {
+    fn latch(&self, trial: &[f64], base: &mut [f64]) -> bool {
+        // The number of cracks.
+        if trial[0] <= base[0] {
+            return false;
+        }
         let (found, mut kept) = (State::read(trial), State::read(base));
         if found.cracked && !kept.cracked {
             kept.onset = found.onset;
             kept.shares = [1.0; 2];
             kept.kt = self.strains_at_onset(found.onset);
-        } else if found.second == kept.second {
-            return;
         }
         (kept.cracked, kept.second) = (found.cracked, found.second);
         kept.axes = found.axes;
         kept.write(base);
+        true
     }
 
     fn free_energy(&self, strain: &Vector6<f64>, state: &[f64], ctx: &PointContext) -> Option<f64> {

@@ -1,13 +1,12 @@
 //! The isotropic branch and the onset of the first crack.
 
 use fe_core::kinematics::Solid;
-use fe_core::material::{MaterialError, Operator, PointContext, Response};
+use fe_core::material::{Operator, PointContext, Response};
 use fe_core::principal::Principal;
 use fe_core::voigt::{SHEAR_PAIRS, strain_transform, stress_along};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use super::curves::Compression;
-use super::{FixedCrack, OPERATOR_FLOOR, State, wants_secant};
+use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, State, wants_secant};
 
 impl FixedCrack {
     /// Stress of the uncracked point of known principal strains, or `false` when a crack opens: the state then holds its axes.
@@ -15,10 +14,10 @@ impl FixedCrack {
         &self,
         (e, axes): Principal,
         state: &mut State,
-        ctx: &PointContext,
+        (ctx, envelopes): (&PointContext, &Envelopes),
         out: &mut Response<Solid>,
-    ) -> Result<bool, MaterialError> {
-        let compression = Compression::new(&self.p, ctx.band_width)?;
+    ) -> bool {
+        let compression = &envelopes.compression;
         let nu = self.p.poisson;
         let (q1, q2) = (
             (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)),
@@ -51,7 +50,7 @@ impl FixedCrack {
             state.kt = self.strains_at_onset(onset);
             state.shares = [1.0; 2];
             state.kc = committed_kc;
-            return Ok(false);
+            return false;
         }
         for k in state.kc {
             state.crushing = state.crushing.max(compression.crushing(k));
@@ -88,7 +87,7 @@ impl FixedCrack {
             }
             out.tangent = t.tr_mul(&d) * t;
         }
-        Ok(true)
+        true
     }
 
     /// Stress sigma_1 at which a crack opens, if it does.

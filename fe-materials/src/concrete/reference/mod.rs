@@ -156,13 +156,15 @@ impl Material<Solid> for Reference {
         true
     }
 
-    fn latch(&self, trial: &[f64], base: &mut [f64]) {
+    fn latch(&self, trial: &[f64], base: &mut [f64]) -> bool {
         let (found, mut kept) = (State::read(trial), State::read(base));
+        let new = (0..kept.cracked.len()).any(|i| found.cracked[i] && !kept.cracked[i]);
         if found.is_cracked() && !kept.is_cracked() {
             kept.crack(found.axes, found.plastic);
         }
         kept.cracked = std::array::from_fn(|i| kept.cracked[i] || found.cracked[i]);
         kept.write(base);
+        new
     }
 
     fn report(&self, strain: &Vector6<f64>, state: &[f64]) -> PointReport {
