@@ -250,6 +250,8 @@ impl<'m> Stage<'m> {
     ) -> Result<Vec<f64>, SolverError> {
         let begin = Instant::now();
         self.counters.force_evaluations += 1;
+        // An evaluation that fails has been made nowhere.
+        let mut kept = self.evaluated.take().map_or_else(Vec::new, |at| at.0);
         self.assembler
             .evaluate(self.model, u, self.state, ctx, &mut self.assembled)?;
         if ctx.operator == Operator::None {
@@ -258,7 +260,6 @@ impl<'m> Stage<'m> {
             self.times.assembly += begin.elapsed();
         }
         self.conditions.external(lambda, &mut self.external);
-        let mut kept = self.evaluated.take().map_or_else(Vec::new, |at| at.0);
         kept.clear();
         kept.extend_from_slice(u);
         self.evaluated = Some((kept, lambda, ctx.relaxation));

@@ -45,8 +45,8 @@ fn the_supports_carry_the_weight() {
     assert!((beam.measures.load_kn(&reactions) - 3.477).abs() < 1e-3);
 }
 
-/// Every specimen builds on its mesh: full columns of concrete, no more than in an even grid (and a stub), bars of the full length cut
-/// once at every face, a gauge on every stirrup of the test span and wherever the specimen has one on its sheets.
+/// Every specimen builds on its mesh: full columns of concrete, no more than in an even grid (and a stub), bars of the
+/// full length cut once at every face, a gauge on every stirrup of the test span and wherever the specimen has one on its sheets.
 #[test]
 fn every_specimen_builds() {
     for (name, _) in BUILTIN {
