@@ -168,6 +168,19 @@ impl Interface16 {
     }
 }
 
+/// Adds the blocks of the stiffness: minus between the faces, plus within each.
+fn spread(sums: &[[[[f64; 3]; 3]; 8]; 8], stiffness: &mut [f64]) {
+    for (row, out) in stiffness.chunks_exact_mut(N).enumerate() {
+        let (a, i) = (row / 3, row % 3);
+        for (b, out) in out.chunks_exact_mut(3).enumerate() {
+            let block = &sums[a % 8][b % 8][i];
+            for (out, k) in out.iter_mut().zip(block) {
+                *out += if (a < 8) == (b < 8) { *k } else { -*k };
+            }
+        }
+    }
+}
+
 /// Rows t1, t2, n of a unit normal and a direction.
 fn axes(normal: &Vector3<f64>, direction: [f64; 3]) -> Result<Matrix3<f64>, ElementError> {
     let given = Vector3::from(direction);
@@ -217,7 +230,8 @@ impl Element for Interface16 {
     ) -> Result<(), ElementError> {
         let n = self.law.state_len();
         let point_ctx = points::context(self.size, ctx);
-        let symmetric = !self.law.unsymmetric_tangent();
+        // Sums of w J N_a N_b D, of which the blocks of K are copies.
+        let mut sums = [[[[0.0; 3]; 3]; 8]; 8];
         for (p, point) in self.points.iter().enumerate() {
             let range = p * n..(p + 1) * n;
             let response = self
@@ -240,17 +254,19 @@ impl Element for Interface16 {
                 continue;
             }
             let d = point.axes.tr_mul(&response.tangent) * point.axes * point.area;
-            for a in 0..16 {
-                let first = if symmetric { a } else { 0 };
-                for b in first..16 {
-                    let factor = signed[a] * signed[b];
+            for a in 0..8 {
+                for b in 0..8 {
+                    let factor = point.values[a] * point.values[b];
                     for i in 0..3 {
                         for j in 0..3 {
-                            out.stiffness[(3 * a + i) * N + 3 * b + j] += factor * d[(i, j)];
+                            sums[a][b][i][j] += factor * d[(i, j)];
                         }
                     }
                 }
             }
+        }
+        if ctx.operator != Operator::None {
+            spread(&sums, out.stiffness);
         }
         Ok(())
     }

@@ -152,7 +152,7 @@ fn free_motion(model: &Model, conditions: &Conditions, part: &[NodeId]) -> Resul
     let centre = part.iter().map(|&n| position(n)).sum::<Vector3<f64>>() / part.len() as f64;
     let reach = part.iter().map(|&n| (position(n) - centre).norm());
     let size = reach.fold(0.0, f64::max).max(f64::MIN_POSITIVE);
-    // Normal equations: R^T R of all DOFs of the part, and of those that are prescribed.
+    // Normal equations: R^T R of all DOFs of the part, and of those that are prescribed or that the part cannot take up.
     let (mut all, mut held) = (Matrix6::zeros(), Matrix6::zeros());
     for &node in part {
         for dof in Dof::ALL {
@@ -165,6 +165,16 @@ fn free_motion(model: &Model, conditions: &Conditions, part: &[NodeId]) -> Resul
             if conditions.prescribed().contains_key(&d) {
                 held += square;
             }
+        }
+    }
+    for (node, leader, factors) in model.followers().iter() {
+        if part.binary_search(&leader).is_err() {
+            continue;
+        }
+        for (dof, factor) in Dof::DISPLACEMENTS.into_iter().zip(factors) {
+            let tie = row(model, node, dof, centre, size)
+                - factor * row(model, leader, dof, centre, size);
+            held += tie * tie.transpose();
         }
     }
     let eigen = held.symmetric_eigen();

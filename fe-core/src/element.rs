@@ -169,9 +169,9 @@ pub trait Element: Debug + Send + Sync {
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError>;
 
-    /// The cell to draw the element as, on its own nodes in that order; `None` for an element that draws
-    /// [segments](Self::segments) or nothing.
-    fn cell(&self) -> Option<CellKind> {
+    /// The cell to draw the element as, and its nodes; `None` for an element that draws [segments](Self::segments) or
+    /// nothing.
+    fn cell(&self) -> Option<(CellKind, &[NodeId])> {
         None
     }
 
@@ -214,6 +214,12 @@ pub trait Element: Debug + Send + Sync {
         _visit: &mut dyn FnMut(PointSample<'_>),
     ) -> Result<(), ElementError> {
         Ok(())
+    }
+
+    /// Nodes of the hexahedron that carries the element, in which the displacement of its
+    /// [segments](Self::segments) is interpolated.
+    fn host(&self) -> Option<&[NodeId; 20]> {
+        None
     }
 
     /// Line segments to draw (mm), each with the axial stress (MPa) at `u` and `state`: bars.

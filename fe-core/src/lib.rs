@@ -32,6 +32,7 @@ pub mod check;
 pub mod dof;
 pub mod element;
 pub mod energy;
+pub mod followers;
 pub mod grid;
 pub mod kinematics;
 pub mod limits;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::dof::{Dof, DofMap};
 use crate::element::{Element, ElementError, PointSample};
+use crate::followers::Followers;
 use crate::mesh::{Mesh, NodeId};
 use crate::state::StateStore;
 
@@ -106,17 +107,34 @@ pub struct Model {
     mesh: Mesh,
     elements: Vec<Box<dyn Element>>,
     dofs: DofMap,
+    followers: Followers,
 }
 
 impl Model {
     /// Numbers the DOFs of the elements.
     pub fn new(mesh: Mesh, elements: Vec<Box<dyn Element>>) -> Self {
+        Self::with_followers(mesh, elements, Followers::default())
+    }
+
+    /// The same where some nodes follow others. Elements are built on leaders only; conditions on followers are passed on
+    /// to their leaders.
+    pub fn with_followers(
+        mesh: Mesh,
+        elements: Vec<Box<dyn Element>>,
+        followers: Followers,
+    ) -> Self {
         let dofs = DofMap::new(&mesh, &elements);
         Self {
             mesh,
             elements,
             dofs,
+            followers,
         }
+    }
+
+    /// Nodes that follow others.
+    pub const fn followers(&self) -> &Followers {
+        &self.followers
     }
 
     /// The mesh.
@@ -134,21 +152,45 @@ impl Model {
         &self.dofs
     }
 
-    /// Index of a DOF.
+    /// Index of a DOF, or of that of its leader which it equals.
     ///
     /// # Errors
     ///
-    /// [`ModelError::NoSuchNode`] or [`ModelError::UnusedDof`].
+    /// [`ModelError::NoSuchNode`], or [`ModelError::UnusedDof`] also for a follower that moves otherwise than its leader.
     pub fn dof(&self, node: NodeId, dof: Dof) -> Result<usize, ModelError> {
-        let nodes = self.mesh.nodes();
-        let position = *nodes.get(node).ok_or(ModelError::NoSuchNode {
-            node,
-            nodes: nodes.len(),
-        })?;
-        self.dofs.index(node, dof).ok_or(ModelError::UnusedDof {
+        match self.leading(node, dof)? {
+            (d, 1.0) => Ok(d),
+            _ => Err(self.unused(node, dof)),
+        }
+    }
+
+    /// Index and factor of the DOF that moves a node.
+    fn leading(&self, node: NodeId, dof: Dof) -> Result<(usize, f64), ModelError> {
+        let nodes = self.mesh.nodes().len();
+        if node >= nodes {
+            return Err(ModelError::NoSuchNode { node, nodes });
+        }
+        let (leader, factors) = self.followers.of(node);
+        let index = self.dofs.index(leader, dof);
+        let factor = factors.get(dof as usize).copied().unwrap_or(1.0);
+        index.map_or_else(|| Err(self.unused(node, dof)), |d| Ok((d, factor)))
+    }
+
+    fn unused(&self, node: NodeId, dof: Dof) -> ModelError {
+        let position = self.mesh.nodes()[node];
+        ModelError::UnusedDof {
             node,
             dof,
             position,
+        }
+    }
+
+    /// Displacement (mm) of a node at the displacement `u` of all DOFs; zero where no element uses the DOF.
+    pub fn displacement(&self, node: NodeId, u: &[f64]) -> [f64; 3] {
+        let (leader, factors) = self.followers.of(node);
+        std::array::from_fn(|k| {
+            let index = self.dofs.index(leader, Dof::DISPLACEMENTS[k]);
+            index.map_or(0.0, |i| factors[k] * u[i])
         })
     }
 
@@ -250,7 +292,12 @@ impl Conditions {
         dof: Dof,
         rate: f64,
     ) -> Result<(), ModelError> {
-        self.prescribed.insert(model.dof(node, dof)?, rate);
+        let (d, factor) = model.leading(node, dof)?;
+        if factor != 0.0 {
+            self.prescribed.insert(d, rate / factor);
+        } else if rate != 0.0 {
+            return Err(model.unused(node, dof));
+        }
         Ok(())
     }
 
@@ -266,7 +313,8 @@ impl Conditions {
         dof: Dof,
         force: f64,
     ) -> Result<(), ModelError> {
-        self.dead[model.dof(node, dof)?] += force;
+        let (d, factor) = model.leading(node, dof)?;
+        self.dead[d] += factor * force;
         Ok(())
     }
 
@@ -282,7 +330,8 @@ impl Conditions {
         dof: Dof,
         force: f64,
     ) -> Result<(), ModelError> {
-        self.reference[model.dof(node, dof)?] += force;
+        let (d, factor) = model.leading(node, dof)?;
+        self.reference[d] += factor * force;
         Ok(())
     }
 

@@ -2,16 +2,15 @@
 
 use std::sync::Arc;
 
-use fe_core::dof::Dof;
-use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
+use fe_core::element::ElementError;
 use fe_core::kinematics::Solid;
-use fe_core::material::{Material, Operator, PointContext, Response};
-use fe_core::mesh::{CellKind, NodeId};
+use fe_core::material::Material;
+use fe_core::mesh::NodeId;
 use fe_core::shape::{hex20, quadrature};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use crate::kernel::{self, MAX_POINTS, PAD, Point};
-use crate::points;
+use crate::kernel::{self, PAD, Point};
+use crate::solid::{Interpolation, SolidElement};
 
 /// Integration rule of a hexahedron.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,7 +24,7 @@ pub enum HexRule {
 }
 
 impl HexRule {
-    fn points(self) -> Vec<([f64; 3], f64)> {
+    pub(crate) fn points(self) -> Vec<([f64; 3], f64)> {
         match self {
             Self::Reduced => quadrature::cube(2),
             Self::Irons => quadrature::irons(),
@@ -51,7 +50,7 @@ pub enum BandWidth {
 }
 
 impl BandWidth {
-    fn of(self, coords: &[[f64; 3]; 20], volume: f64, points: usize) -> f64 {
+    pub(crate) fn of(self, coords: &[[f64; 3]; 20], volume: f64, points: usize) -> f64 {
         match self {
             Self::CubeRoot => (volume / points as f64).cbrt(),
             Self::InPlane { normal, factor } => {
@@ -66,14 +65,14 @@ impl BandWidth {
     }
 }
 
-/// 20-node hexahedron, K = sum w B^T D B, f = sum w B^T sigma.
+/// 20-node hexahedron.
+pub type Hex20 = SolidElement<Brick>;
+
+/// Interpolation of the 20-node hexahedron.
 #[derive(Debug)]
-pub struct Hex20 {
+pub struct Brick {
     nodes: [NodeId; 20],
     points: Vec<Point>,
-    positions: Vec<[f64; 3]>,
-    band_width: f64,
-    law: Arc<dyn Material<Solid>>,
 }
 
 impl Hex20 {
@@ -91,20 +90,16 @@ impl Hex20 {
         law: Arc<dyn Material<Solid>>,
         band: BandWidth,
     ) -> Result<Self, ElementError> {
-        let map = |point, xi| match hex20::map(coords, xi) {
-            mapped @ (_, _, determinant) if determinant > 0.0 => Ok(mapped),
-            (_, _, determinant) => Err(ElementError::Jacobian { point, determinant }),
-        };
         if rule != HexRule::Full {
             // Fewer points see less of a fold.
             for (point, (xi, _)) in quadrature::cube(3).into_iter().enumerate() {
-                map(point, xi)?;
+                map(coords, point, xi)?;
             }
         }
         let mut points = Vec::new();
         let mut positions = Vec::new();
         for (point, (xi, w)) in rule.points().into_iter().enumerate() {
-            let (position, gradients, determinant) = map(point, xi)?;
+            let (position, gradients, determinant) = map(coords, point, xi)?;
             let mut g = [[0.0; PAD]; 3];
             for (a, d) in gradients.iter().enumerate() {
                 for k in 0..3 {
@@ -115,154 +110,53 @@ impl Hex20 {
             positions.push(position.into());
         }
         let volume: f64 = points.iter().map(|p| p.1).sum();
-        let band_width = band.of(coords, volume, points.len());
-        if !(band_width.is_finite() && band_width > 0.0) {
-            return Err(ElementError::Input {
-                what: "crack-band width (mm)".into(),
-                value: band_width,
-                allowed: "(0, inf)".into(),
-                remedy: "give a positive width, or a normal that is not zero".into(),
-            });
-        }
-        law.admit(&PointContext::new(band_width))
-            .map_err(|source| ElementError::Material { point: 0, source })?;
-        Ok(Self {
-            nodes,
-            points,
-            positions,
-            band_width,
-            law,
-        })
-    }
-
-    /// Asks the law at every point and hands each answer to `take`.
-    fn respond(
-        &self,
-        strains: &[Vector6<f64>],
-        states: (&[f64], &mut [f64]),
-        ctx: &EvaluationContext,
-        mut take: impl FnMut(usize, &Response<Solid>),
-    ) -> Result<(), ElementError> {
-        let ctx = points::context(self.band_width, ctx);
-        let strains = &strains[..self.points.len()];
-        self.law
-            .update_many(strains, states, &ctx, &mut take)
-            .map_err(|(point, source)| ElementError::Material { point, source })
-    }
-
-    /// Volume (mm3).
-    pub fn volume(&self) -> f64 {
-        self.points.iter().map(|p| p.1).sum()
-    }
-
-    /// Crack-band width h (mm).
-    pub const fn band_width(&self) -> f64 {
-        self.band_width
+        let band = band.of(coords, volume, points.len());
+        Self::of(Brick { nodes, points }, positions, law, band)
     }
 }
 
-impl Element for Hex20 {
+/// Position (mm), gradients (1/mm) and Jacobian determinant (mm3) at a point.
+type Mapped = (Vector3<f64>, [[f64; 3]; 20], f64);
+
+/// The map at a point, unless it is folded there.
+pub(crate) fn map(
+    coords: &[[f64; 3]; 20],
+    point: usize,
+    xi: [f64; 3],
+) -> Result<Mapped, ElementError> {
+    match hex20::map(coords, xi) {
+        mapped @ (_, _, determinant) if determinant > 0.0 => Ok(mapped),
+        (_, _, determinant) => Err(ElementError::Jacobian { point, determinant }),
+    }
+}
+
+impl Interpolation for Brick {
     fn nodes(&self) -> &[NodeId] {
         &self.nodes
     }
 
-    fn dofs(&self) -> &'static [Dof] {
-        &Dof::DISPLACEMENTS
+    fn cell(&self) -> &[NodeId; 20] {
+        &self.nodes
     }
 
-    fn state_len(&self) -> usize {
-        self.points.len() * self.law.state_len()
+    fn volumes(&self) -> impl Iterator<Item = f64> {
+        self.points.iter().map(|p| p.1)
     }
 
-    fn init_state(&self, state: &mut [f64]) {
-        points::init_state(self.law.as_ref(), state);
+    fn strains(&self, u: &[f64], out: &mut [Vector6<f64>]) {
+        kernel::strains(&self.points, &kernel::by_direction(u), out);
     }
 
-    fn evaluate(
-        &self,
-        u: &[f64],
-        committed: &[f64],
-        trial: &mut [f64],
-        ctx: &EvaluationContext,
-        out: ElementSystem<'_>,
-    ) -> Result<(), ElementError> {
-        let count = self.points.len();
-        let u = kernel::by_direction(u);
-        let mut strains = [Vector6::zeros(); MAX_POINTS];
-        kernel::strains(&self.points, &u, &mut strains[..count]);
-        let mut stresses = strains;
-        let stresses = &mut stresses[..count];
-        if ctx.operator == Operator::None {
-            self.respond(&strains, (committed, trial), ctx, |p, response| {
-                stresses[p] = response.stress;
-            })?;
-        } else {
-            let mut tangents = [Matrix6::zeros(); MAX_POINTS];
-            self.respond(&strains, (committed, trial), ctx, |p, response| {
-                stresses[p] = response.stress;
-                tangents[p] = response.tangent;
-            })?;
-            let tangents = &mut tangents[..count];
-            let unsymmetric = self.unsymmetric() && ctx.operator == Operator::Tangent;
-            if unsymmetric && ctx.symmetric_part {
-                for d in &mut *tangents {
-                    *d = 0.5 * (*d + d.transpose());
-                }
-            }
-            let symmetric = ctx.symmetric_part || !unsymmetric;
-            kernel::stiffness(&self.points, tangents, symmetric, out.stiffness);
-        }
+    fn add_force(&self, stresses: &[Vector6<f64>], out: &mut [f64]) {
         let force = kernel::force(&self.points, stresses);
         for a in 0..20 {
             for k in 0..3 {
-                out.force[3 * a + k] += force[k][a];
+                out[3 * a + k] += force[k][a];
             }
         }
-        Ok(())
     }
 
-    fn cell(&self) -> Option<CellKind> {
-        Some(CellKind::Hex20)
-    }
-
-    fn unsymmetric(&self) -> bool {
-        self.law.unsymmetric_tangent()
-    }
-
-    fn fills_symmetric_part(&self) -> bool {
-        true
-    }
-
-    fn latch(&self, trial: &[f64], base: &mut [f64]) -> bool {
-        points::latch(self.law.as_ref(), trial, base)
-    }
-
-    fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
-        let u = kernel::by_direction(u);
-        let mut strains = [Vector6::zeros(); MAX_POINTS];
-        let strains = &mut strains[..self.points.len()];
-        kernel::strains(&self.points, &u, strains);
-        let law = self.law.as_ref();
-        if points::unload_to_origin(law, self.band_width, state, strains) {
-            return None;
-        }
-        let volumes = self.points.iter().map(|p| p.1);
-        let points = volumes.zip(strains.iter().copied());
-        points::free_energy(law, self.band_width, state, points)
-    }
-
-    fn sample(
-        &self,
-        u: &[f64],
-        state: &[f64],
-        visit: &mut dyn FnMut(PointSample<'_>),
-    ) -> Result<(), ElementError> {
-        let mut strains = [Vector6::zeros(); MAX_POINTS];
-        kernel::strains(&self.points, &kernel::by_direction(u), &mut strains);
-        let places = self.points.iter().zip(&self.positions);
-        let points = places
-            .zip(strains)
-            .map(|((p, x), strain)| (*x, p.1, strain));
-        points::sample(self.law.as_ref(), self.band_width, state, points, visit)
+    fn add_stiffness(&self, tangents: &[Matrix6<f64>], symmetric: bool, out: &mut [f64]) {
+        kernel::stiffness(&self.points, tangents, symmetric, out);
     }
 }

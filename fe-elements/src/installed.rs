@@ -74,7 +74,7 @@ impl Element for Installed {
         self.element.evaluate(&u, committed, trial, ctx, out)
     }
 
-    fn cell(&self) -> Option<CellKind> {
+    fn cell(&self) -> Option<(CellKind, &[NodeId])> {
         self.element.cell()
     }
 
@@ -105,6 +105,10 @@ impl Element for Installed {
         visit: &mut dyn FnMut(PointSample<'_>),
     ) -> Result<(), ElementError> {
         self.element.sample(&self.relative(u), state, visit)
+    }
+
+    fn host(&self) -> Option<&[NodeId; 20]> {
+        self.element.host()
     }
 
     fn segments(

@@ -147,8 +147,8 @@ impl<const N: usize> Element for Sheet<N> {
         Ok(())
     }
 
-    fn cell(&self) -> Option<CellKind> {
-        Some(CellKind::Quad8)
+    fn cell(&self) -> Option<(CellKind, &[NodeId])> {
+        Some((CellKind::Quad8, self.nodes()))
     }
 
     fn unsymmetric(&self) -> bool {

@@ -44,7 +44,7 @@ pub struct DescentSettings {
 impl Default for DescentSettings {
     fn default() -> Self {
         Self {
-            max_iterations: 3000,
+            max_iterations: 1000,
             rebuild_after: 10,
             overshoot: 0.3,
             least_factor: 0.05,

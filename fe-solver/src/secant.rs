@@ -82,8 +82,13 @@ struct Snap {
     free: Vec<f64>,
     residual: Residual,
     iterations: usize,
+    /// Whether it has lost the load, see [`COLLAPSE`].
+    collapsed: bool,
 }
 
+/// Share of the accepted load after whose loss a structure has collapsed: the fall has a quarter of the iterations to come
+/// to rest.
+const COLLAPSE: f64 = 0.9;
 /// Relative residual below which a snap counts as small, and a descent gives over to the accelerated iteration.
 const NEAR: f64 = 1e-2;
 /// Iterations of a descent from one look at that to the next.
@@ -246,6 +251,8 @@ impl SecantAnderson {
         loop {
             let residual = descent.run(stage, criterion, LEG, log)?;
             let iterations = spent + descent.iterations;
+            let collapsed = Self::loss(stage) >= COLLAPSE;
+            let limit = if collapsed { limit / 4 } else { limit };
             let over = iterations >= limit || !residual.relative.is_finite();
             // A snap that loses load is to be placed by shorter steps first: no use to follow it down.
             let lost = !last_resort && Self::loss(stage) >= DROP_FALL;
@@ -254,6 +261,7 @@ impl SecantAnderson {
                     free: descent.free,
                     residual,
                     iterations,
+                    collapsed,
                 });
             }
             if residual.relative > near.min(FALLEN * descent.largest) {
@@ -269,6 +277,7 @@ impl SecantAnderson {
                     free: solve.free,
                     residual,
                     iterations: iterations + solve.iterations,
+                    collapsed: false,
                 });
             }
             descent.resume();
@@ -317,8 +326,9 @@ impl Driver for SecantAnderson {
         };
         iterations += snap.as_ref().map_or(0, |snap| snap.iterations);
         let residual = match (snap, solve.converged) {
-            // A snap that was not passed may end farther from equilibrium than the regular solve did.
-            (Some(s), _) if s.residual.relative <= criterion.max(solve.relative) => {
+            // A snap that was not passed may end farther from equilibrium than the regular solve did, unless nothing is
+            // left to go back to.
+            (Some(s), _) if s.collapsed || s.residual.relative <= criterion.max(solve.relative) => {
                 solve.free = s.free;
                 s.residual
             }

@@ -1,6 +1,6 @@
 //! Options of a run; as flags of the command line they carry the texts of its help.
 
-use std::fmt::Display;
+use std::fmt::{self, Display, Formatter};
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -15,8 +15,9 @@ pub struct RunOptions {
     #[arg(long, value_enum, default_value_t)]
     pub preset: Preset,
 
-    /// Elements along, up and across the half beam, of which free ends get fewer; without it, 60x4x1
-    #[arg(long, value_name = "NXxNYxNZ")]
+    /// Elements along, up and across the half beam, of which free ends get fewer; two counts for one uniform across its
+    /// width; without it, 60x4
+    #[arg(long, value_name = "NXxNY[xNZ]")]
     pub mesh: Option<MeshSize>,
 
     /// Integration points of the concrete elements; without it, those of the preset
@@ -290,8 +291,22 @@ pub struct MeshSize {
     pub nx: usize,
     /// Over the height, y.
     pub ny: usize,
-    /// Over half of the width, z.
-    pub nz: usize,
+    /// Over half of the width, z; none where the displacement is uniform across it.
+    pub nz: Option<usize>,
+}
+
+impl From<[usize; 3]> for MeshSize {
+    fn from([nx, ny, nz]: [usize; 3]) -> Self {
+        let nz = Some(nz);
+        Self { nx, ny, nz }
+    }
+}
+
+impl Display for MeshSize {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}x{}", self.nx, self.ny)?;
+        self.nz.map_or(Ok(()), |nz| write!(f, "x{nz}"))
+    }
 }
 
 /// Largest number of elements in one direction.
@@ -314,21 +329,28 @@ impl FromStr for MeshSize {
                     .map_err(|_| format!("{n:?} is not a whole number"))
             })
             .collect::<Result<_, _>>()
-            .map_err(|what| format!("{what}; write three counts, for instance 60x4x1"))?;
-        let [nx, ny, nz] = counts[..] else {
-            return Err(format!(
-                "{} counts; write three, for instance 60x4x1",
-                counts.len()
-            ));
+            .map_err(|what| {
+                format!("{what}; write two or three counts, for instance 60x4 or 60x4x1")
+            })?;
+        let (nx, ny, nz) = match counts[..] {
+            [nx, ny] => (nx, ny, None),
+            [nx, ny, nz] => (nx, ny, Some(nz)),
+            _ => {
+                return Err(format!(
+                    "{} counts; write two or three, for instance 60x4 or 60x4x1",
+                    counts.len()
+                ));
+            }
         };
-        for (count, axis) in [(nx, "along"), (ny, "up"), (nz, "across")] {
+        let across = nz.unwrap_or(1);
+        for (count, axis) in [(nx, "along"), (ny, "up"), (across, "across")] {
             if !(1..=MAX_ELEMENTS).contains(&count) {
                 return Err(format!(
                     "{count} elements {axis} the beam; allowed: 1 to {MAX_ELEMENTS}, for instance 60x4x1"
                 ));
             }
         }
-        let total = nx * ny * nz;
+        let total = nx * ny * across;
         if total > MAX_TOTAL {
             return Err(format!(
                 "{total} elements; allowed: up to {MAX_TOTAL} in all, for instance 60x4x1"
@@ -350,9 +372,13 @@ impl MeshSize {
     /// About how much the factor of the stiffness takes (GB): equations are numbered along the beam, so that
     /// a layer of elements is coupled with the next, and the band is filled.
     fn factor_gb(self) -> f64 {
-        let [nx, ny, nz] = [self.nx, self.ny, self.nz].map(|n| n as f64);
-        let face = (2.0 * ny + 1.0) * (2.0 * nz + 1.0) - ny * nz;
-        let middle = (ny + 1.0) * (nz + 1.0);
+        let [nx, ny] = [self.nx, self.ny].map(|n| n as f64);
+        let nodes = |nz: f64| {
+            let face = (2.0 * ny + 1.0) * (2.0 * nz + 1.0) - ny * nz;
+            (face, (ny + 1.0) * (nz + 1.0))
+        };
+        // Uniform across, as on one face.
+        let (face, middle) = nodes(self.nz.map_or(0.0, |nz| nz as f64));
         let layer = 3.0 * (face + middle);
         8.0 * nx * layer * layer / 1e9
     }

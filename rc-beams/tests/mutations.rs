@@ -193,7 +193,7 @@ fn spoilt_files_are_refused_or_give_a_beam_in_equilibrium() {
                 }
                 Ok(specimen) => {
                     let mut settings = ModelSettings::new(Preset::Physical, &specimen);
-                    settings.mesh = mesh;
+                    settings.mesh = mesh.into();
                     match Beam::new(&specimen, &settings) {
                         Err(error) => {
                             ends.not_built += 1;

@@ -1,6 +1,5 @@
 //! Fields of the elements that draw line segments.
 
-use super::nodal_displacement;
 use super::vtu::{DataArray, UnstructuredGrid};
 use crate::model::{Model, ModelError};
 use crate::shape::hex20;
@@ -50,17 +49,18 @@ pub fn bar_grid(
     Ok(grid)
 }
 
-/// Displacement (mm) of a point of an element: interpolated in a hexahedron, that of the nearest node
+/// Displacement (mm) of a point of an element: interpolated in its host, that of the nearest node
 /// otherwise.
 fn displacement_at(model: &Model, u: &[f64], element: usize, point: [f64; 3]) -> [f64; 3] {
     let nodes = model.elements()[element].nodes();
     let coords = model.mesh().nodes();
-    let host = <[usize; 20]>::try_from(nodes).ok();
-    let inside = host.and_then(|host| hex20::inverse_map(&host.map(|n| coords[n]), point));
-    if let Some(xi) = inside {
+    let host = model.elements()[element].host();
+    let inside =
+        host.and_then(|host| Some((host, hex20::inverse_map(&host.map(|n| coords[n]), point)?)));
+    if let Some((host, xi)) = inside {
         let mut sum = [0.0; 3];
-        for (&node, weight) in nodes.iter().zip(hex20::shape(xi).0) {
-            let own = nodal_displacement(model, u, node);
+        for (&node, weight) in host.iter().zip(hex20::shape(xi).0) {
+            let own = model.displacement(node, u);
             for k in 0..3 {
                 sum[k] += weight * own[k];
             }
@@ -77,5 +77,5 @@ fn displacement_at(model: &Model, u: &[f64], element: usize, point: [f64; 3]) ->
     nodes
         .iter()
         .min_by(|&&a, &&b| distance(a).total_cmp(&distance(b)))
-        .map_or([0.0; 3], |&node| nodal_displacement(model, u, node))
+        .map_or([0.0; 3], |&node| model.displacement(node, u))
 }

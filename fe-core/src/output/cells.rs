@@ -1,6 +1,5 @@
 //! Fields of the elements that draw a cell.
 
-use super::nodal_displacement;
 use super::vtu::{DataArray, UnstructuredGrid};
 use crate::element::PointSample;
 use crate::kinematics::{Kinematics, Solid};
@@ -33,18 +32,16 @@ pub fn cell_grid(
 ) -> Result<UnstructuredGrid, ModelError> {
     let mut displacement = DataArray::new("displacement", &AXES);
     for node in 0..model.mesh().nodes().len() {
-        displacement
-            .values
-            .extend(nodal_displacement(model, u, node));
+        displacement.values.extend(model.displacement(node, u));
     }
     let mut grid = UnstructuredGrid::new(model.mesh().nodes().to_vec());
     grid.point_data.push(displacement);
     let mut fields = Fields::new();
     for (e, element) in model.elements().iter().enumerate() {
-        let Some(kind) = element.cell() else {
+        let Some((kind, nodes)) = element.cell() else {
             continue;
         };
-        grid.add_cell(kind.vtk_type(), element.nodes());
+        grid.add_cell(kind.vtk_type(), nodes);
         let mut mean = Mean::default();
         model.sample(e, u, state, &mut |s| mean.add(&s))?;
         fields.push(&mean);

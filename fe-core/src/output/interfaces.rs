@@ -1,6 +1,5 @@
 //! Fields of the elements that join two faces.
 
-use super::nodal_displacement;
 use super::vtu::{DataArray, UnstructuredGrid};
 use crate::element::PointSample;
 use crate::kinematics::{Interface, Kinematics};
@@ -44,7 +43,7 @@ pub fn interface_grid(
         let points: Vec<usize> = (first..first + face.len()).collect();
         grid.add_cell(CellKind::Quad8.vtk_type(), &points);
         for node in face {
-            let values = nodal_displacement(model, u, node);
+            let values = model.displacement(node, u);
             displacement.values.extend(values);
         }
         let mut mean = Mean::default();

@@ -24,10 +24,6 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-use crate::dof::Dof;
-use crate::mesh::NodeId;
-use crate::model::Model;
-
 /// Writes a file under a temporary name in the same folder, then renames it.
 fn write_atomically(
     path: &Path,
@@ -50,9 +46,4 @@ fn write_atomically(
             source,
         }
     })
-}
-
-/// Displacement (mm) of a node; zero where no element uses the DOF.
-fn nodal_displacement(model: &Model, u: &[f64], node: NodeId) -> [f64; 3] {
-    Dof::DISPLACEMENTS.map(|dof| model.dofs().index(node, dof).map_or(0.0, |i| u[i]))
 }

@@ -34,7 +34,7 @@ pub fn check_element(
     let mut differences = Differences::new(n, &check.amplitude, check.difference_step);
     let mut random = Random::new(check.seed);
     let mut report = ElementReport::default();
-    let motions = motions(coords, element.dofs());
+    let motions = motions(coords, element.dofs(), check.in_plane);
     report.motions = motions.len();
     for path in 0..check.paths {
         let mut drive = Drive::start(element, check, path, n)?;

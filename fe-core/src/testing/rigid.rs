@@ -24,9 +24,9 @@ const NAMES: [[&str; 2]; 6] = [
     ["a rotation about z", "moment about z"],
 ];
 
-/// The translations u = e_k and rotations u = e_k x (x - centre) that the DOFs can represent.
-pub(super) fn motions(coords: &[[f64; 3]], dofs: &[Dof]) -> Vec<Motion> {
-    let has = |k: usize| dofs.contains(&Dof::DISPLACEMENTS[k]);
+/// The translations u = e_k and rotations u = e_k x (x - centre) that the DOFs can represent, or only those in the plane x-y.
+pub(super) fn motions(coords: &[[f64; 3]], dofs: &[Dof], in_plane: bool) -> Vec<Motion> {
+    let has = |k: usize| dofs.contains(&Dof::DISPLACEMENTS[k]) && !(in_plane && k == 2);
     let centre: [f64; 3] =
         std::array::from_fn(|k| coords.iter().map(|x| x[k]).sum::<f64>() / coords.len() as f64);
     let fill = |value: &dyn Fn(&[f64; 3], Dof) -> f64| {
@@ -71,10 +71,11 @@ mod tests {
     #[test]
     fn a_rotation_about_z_turns_x_towards_y() {
         let coords = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
-        let all = motions(&coords, &Dof::DISPLACEMENTS);
+        let all = motions(&coords, &Dof::DISPLACEMENTS, false);
         assert_eq!(all.len(), 6);
         assert_eq!(all[5].values, [0.0, 1.0, 0.0, 0.0, -1.0, 0.0]);
-        assert_eq!(motions(&coords, &[Dof::Ux, Dof::Uy]).len(), 3);
-        assert_eq!(motions(&coords, &[Dof::Uz]).len(), 1);
+        assert_eq!(motions(&coords, &[Dof::Ux, Dof::Uy], false).len(), 3);
+        assert_eq!(motions(&coords, &[Dof::Uz], false).len(), 1);
+        assert_eq!(motions(&coords, &Dof::DISPLACEMENTS, true).len(), 3);
     }
 }

@@ -101,6 +101,9 @@ pub struct ElementCheck {
     pub tangent_tolerance: f64,
     /// Allowed share of steps at a kink, where differences cannot prove the stiffness.
     pub kink_share: f64,
+    /// Whether rigid-body motions in the plane x-y only are free of force, as in a half body that its plane of symmetry
+    /// z = 0 holds.
+    pub in_plane: bool,
     /// Allowed force of a rigid-body motion, relative to stiffness times displacement.
     pub rigid_tolerance: f64,
     /// Allowed resultant of the nodal forces, relative to the sum of the magnitudes of its terms.
@@ -119,6 +122,7 @@ impl ElementCheck {
             difference_step: 1e-5,
             tangent_tolerance: 1e-6,
             kink_share: 0.05,
+            in_plane: false,
             rigid_tolerance: 1e-11,
             balance_tolerance: 1e-11,
         }

@@ -419,8 +419,8 @@ impl Element for Brick {
         Ok(())
     }
 
-    fn cell(&self) -> Option<CellKind> {
-        Some(CellKind::Hex20)
+    fn cell(&self) -> Option<(CellKind, &[NodeId])> {
+        Some((CellKind::Hex20, self.nodes()))
     }
 
     fn sample(
@@ -450,6 +450,10 @@ impl Element for Brick {
             });
         }
         Ok(())
+    }
+
+    fn host(&self) -> Option<&[NodeId; 20]> {
+        Some(&self.nodes)
     }
 
     fn segments(

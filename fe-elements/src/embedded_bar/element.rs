@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
+use fe_core::followers::Followers;
 use fe_core::kinematics::Axial;
 use fe_core::material::{Material, Operator};
 use fe_core::mesh::NodeId;
@@ -12,10 +13,11 @@ use nalgebra::{Vector1, Vector3};
 
 use super::cut::{Host, Piece};
 use super::{Bar, gradients_at};
+use crate::led::columns;
 use crate::points;
 
-/// Row vector of 60 entries, DOF order node-major.
-type Row = [f64; 60];
+/// Row vector of the host's DOFs, node-major.
+type Row = Box<[f64]>;
 
 /// One Gauss point of a bar.
 #[derive(Debug, Clone)]
@@ -26,14 +28,15 @@ struct BarPoint {
     /// Axial strain = `axial` . u.
     axial: Row,
     /// Transverse shear strain = `shear` . u.
-    shear: Option<Box<Row>>,
+    shear: Option<Row>,
 }
 
 /// The pieces of one bar inside one host.
 #[derive(Debug)]
 pub struct EmbeddedBar {
     bar: String,
-    nodes: [NodeId; 20],
+    host: [NodeId; 20],
+    nodes: Vec<NodeId>,
     area: f64,
     dowel: f64,
     law: Arc<dyn Material<Axial>>,
@@ -69,20 +72,40 @@ impl EmbeddedBar {
                     arc_length: piece.start + share * length,
                     weight: 0.5 * w * length,
                     axial: axial_row(&g, t),
-                    shear: transverse.map(|n| Box::new(shear_row(&g, t, n))),
+                    shear: transverse.map(|n| shear_row(&g, t, n)),
                 });
             }
             drawn.push(([a.into(), b.into()], rule.len()));
         }
         Ok(Self {
             bar: bar.name.clone(),
-            nodes: host.nodes,
+            host: host.nodes,
+            nodes: host.nodes.into(),
             area: bar.area_mm2,
             dowel: bar.dowel.map_or(0.0, |d| d.stiffness_n),
             law: Arc::clone(&bar.law),
             points,
             pieces: drawn,
         })
+    }
+
+    /// The same on the DOFs of the nodes that lead those of the host.
+    #[must_use]
+    pub fn led_by(mut self, followers: &Followers) -> Self {
+        let (leaders, columns) = columns(&self.nodes, self.dofs(), followers);
+        let fold = |row: &mut Row| {
+            let mut led = vec![0.0; 3 * leaders.len()];
+            for (r, &(c, t)) in row.iter().zip(&columns) {
+                led[c] += t * r;
+            }
+            *row = led.into();
+        };
+        for point in &mut self.points {
+            fold(&mut point.axial);
+            point.shear.as_mut().map(fold);
+        }
+        self.nodes = leaders;
+        self
     }
 
     /// Name of the bar.
@@ -116,29 +139,29 @@ impl EmbeddedBar {
 
 /// t . (grad u) t: entry (a, k) is (grad N_a . t) t_k.
 fn axial_row(g: &[[f64; 3]; 20], t: Vector3<f64>) -> Row {
-    let mut row = [0.0; 60];
+    let mut row = vec![0.0; 60];
     for a in 0..20 {
         let along = Vector3::from(g[a]).dot(&t);
         for k in 0..3 {
             row[3 * a + k] = along * t[k];
         }
     }
-    row
+    row.into()
 }
 
 /// t . (grad u + grad u^T) n.
 fn shear_row(g: &[[f64; 3]; 20], t: Vector3<f64>, n: Vector3<f64>) -> Row {
-    let mut row = [0.0; 60];
+    let mut row = vec![0.0; 60];
     for a in 0..20 {
         let (along, across) = (Vector3::from(g[a]).dot(&t), Vector3::from(g[a]).dot(&n));
         for k in 0..3 {
             row[3 * a + k] = along * n[k] + across * t[k];
         }
     }
-    row
+    row.into()
 }
 
-fn dot(row: &Row, u: &[f64]) -> f64 {
+fn dot(row: &[f64], u: &[f64]) -> f64 {
     row.iter().zip(u).map(|(a, b)| a * b).sum()
 }
 
@@ -147,9 +170,9 @@ fn strain(point: &BarPoint, u: &[f64]) -> Vector1<f64> {
     Vector1::new(dot(&point.axial, u))
 }
 
-/// Adds c r r^T to the upper triangle of a 60 x 60 matrix.
-fn add_outer(c: f64, row: &Row, out: &mut [f64]) {
-    for (i, target) in out.chunks_exact_mut(60).enumerate() {
+/// Adds c r r^T to the upper triangle of a matrix.
+fn add_outer(c: f64, row: &[f64], out: &mut [f64]) {
+    for (i, target) in out.chunks_exact_mut(row.len()).enumerate() {
         let scaled = c * row[i];
         if scaled != 0.0 {
             for (t, r) in target[i..].iter_mut().zip(&row[i..]) {
@@ -246,6 +269,10 @@ impl Element for EmbeddedBar {
         let places = self.points.iter();
         let points = places.map(|p| (p.position, self.area * p.weight, strain(p, u)));
         points::sample(self.law.as_ref(), 0.0, state, points, visit)
+    }
+
+    fn host(&self) -> Option<&[NodeId; 20]> {
+        Some(&self.host)
     }
 
     fn segments(

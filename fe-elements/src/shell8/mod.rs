@@ -242,8 +242,8 @@ impl Element for Shell8 {
         Ok(())
     }
 
-    fn cell(&self) -> Option<CellKind> {
-        Some(CellKind::Quad8)
+    fn cell(&self) -> Option<(CellKind, &[NodeId])> {
+        Some((CellKind::Quad8, self.nodes()))
     }
 
     fn unsymmetric(&self) -> bool {

@@ -30,10 +30,10 @@ impl Line {
             let what = what.to_owned();
             return Err(BuildError::NoNode { what, x, y });
         }
-        let vertical = nodes
-            .iter()
-            .map(|&n| model.dof(n, Dof::Uy))
-            .collect::<Result<_, _>>()?;
+        let vertical = nodes.iter().map(|&n| model.dof(n, Dof::Uy));
+        let mut vertical: Vec<usize> = vertical.collect::<Result<_, _>>()?;
+        // Nodes that follow one another have one DOF.
+        vertical.dedup();
         Ok(Self {
             x,
             y,

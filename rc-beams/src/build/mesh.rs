@@ -5,6 +5,7 @@ use fe_core::mesh::Mesh;
 
 use super::lines::{Patch, axis_lines, coarse_ends, equal_lines};
 use super::{BuildError, ModelSettings};
+use crate::options::{MeshSize, Preset};
 use crate::spec::{Face, Specimen};
 
 /// Block of concrete in zones with or without stirrups.
@@ -28,7 +29,7 @@ pub(super) fn load_plate(i: usize) -> String {
 
 /// The half beam, z from 0 to half the width; element faces on the edges and centres of all plates.
 pub(super) fn mesh(specimen: &Specimen, settings: &ModelSettings) -> Result<Mesh, BuildError> {
-    let [nx, ny, nz] = settings.mesh;
+    let MeshSize { nx, ny, nz } = settings.mesh;
     let (length, height) = (specimen.beam.length_mm.get(), specimen.beam.height_mm.get());
     let patches = patches(specimen);
     let lines = |axis: usize, length: f64, patches: &[Patch], n: usize| {
@@ -43,7 +44,7 @@ pub(super) fn mesh(specimen: &Specimen, settings: &ModelSettings) -> Result<Mesh
     let xs = lines(0, length, &patches, nx)?;
     let xs = coarse_ends(&xs, loaded(&patches), &sheet_edges(specimen)[0]);
     let ys = lines(1, height, &[], ny)?;
-    let zs = lines(2, specimen.half_width_mm(), &[], nz)?;
+    let zs = lines(2, specimen.half_width_mm(), &[], nz.unwrap_or(1))?;
     let mut grid = GridBuilder::new();
     for column in xs.windows(2) {
         let centre = 0.5 * (column[0] + column[1]);
@@ -88,19 +89,26 @@ const BARE: [usize; 2] = [60, 4];
 /// the fibre are long.
 const STRENGTHENED: usize = 6;
 
-/// Mesh of a specimen that none is asked for: 60 x 4 x 1, with sheets 6 over the height and as many along the
-/// beam as their edges need.
-pub fn default_mesh(specimen: &Specimen) -> [usize; 3] {
+/// Mesh of a specimen that none is asked for: 60 x 4, with sheets 6 over the height and as many along the beam as their
+/// edges need; uniform across the width, unless sheets cover a part of it or another preset than the physical one asks
+/// for hexahedra as in its source.
+pub fn default_mesh(specimen: &Specimen, preset: Preset) -> MeshSize {
     let [nx, ny] = BARE;
+    let across = |least: usize| (least > 1 || preset != Preset::Physical).then_some(least);
     if specimen.sheets.is_none() {
-        return [nx, ny, 1];
+        let nz = across(1);
+        return MeshSize { nx, ny, nz };
     }
     let patches = patches(specimen);
     let edges = sheet_edges(specimen);
     let along = |n| axis_lines(specimen.beam.length_mm.get(), &patches, &edges[0], n).is_some();
     let up = |n| axis_lines(specimen.beam.height_mm.get(), &[], &edges[1], n).is_some();
-    let across = |n| axis_lines(specimen.half_width_mm(), &[], &edges[2], n).is_some();
-    [least(nx, along), least(STRENGTHENED, up), least(1, across)]
+    let wide = |n| axis_lines(specimen.half_width_mm(), &[], &edges[2], n).is_some();
+    MeshSize {
+        nx: least(nx, along),
+        ny: least(STRENGTHENED, up),
+        nz: across(least(1, wide)),
+    }
 }
 
 /// The least number from `n` on that will do; every number of lines does in the end.

@@ -19,13 +19,13 @@ mod tests;
 use std::ops::Range;
 
 use fe_core::check;
-use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError};
+use fe_core::followers::Followers;
 use fe_core::material::MaterialError;
 use fe_core::mesh::{MeshError, NodeId};
 use fe_core::model::{Conditions, Model, ModelError};
 use fe_core::state::StateStore;
-use fe_elements::{BandWidth, Hex20, HexRule, Installed, loads};
+use fe_elements::{BandWidth, Hex20, HexRule, Installed, Led, Linear, UniformHex20, loads};
 
 pub use conditions::{Line, Measures};
 pub use gauges::Gauge;
@@ -34,6 +34,7 @@ pub use reinforcement::{BarKind, BarRecord};
 pub use settings::ModelSettings;
 pub use sheets::{SheetCell, SheetRecord, Zone};
 
+use crate::options::Bond;
 use crate::spec::{Sheets, Specimen};
 
 /// Why a model could not be built.
@@ -140,10 +141,7 @@ impl Beam {
         settings: &ModelSettings,
         (u, state): (&[f64], &StateStore),
     ) -> Result<(Self, Vec<f64>, StateStore), BuildError> {
-        let dofs = self.model.dofs();
-        let displaced = |node: NodeId| {
-            Dof::DISPLACEMENTS.map(|dof| dofs.index(node, dof).map_or(0.0, |d| u[d]))
-        };
+        let displaced = |node: NodeId| self.model.displacement(node, u);
         let sheets = specimen.sheets.as_ref();
         let mut beam = Self::build(specimen, settings, sheets, Some(&displaced))?;
         let start: Vec<f64> = (0..beam.model.dofs().len())
@@ -151,7 +149,7 @@ impl Beam {
                 let (node, dof) = beam.model.dofs().owner(d);
                 let sheets = beam.sheets.as_ref();
                 let node = sheets.map_or(node, |sheets| sheets.carrier(node));
-                dofs.index(node, dof).map_or(0.0, |d| u[d])
+                displaced(node).get(dof as usize).copied().unwrap_or(0.0)
             })
             .collect();
         let mut states = StateStore::new(beam.model.elements());
@@ -170,6 +168,10 @@ impl Beam {
     ) -> Result<Self, BuildError> {
         let mut mesh = mesh::mesh(specimen, settings)?;
         let concrete_laws = laws::concrete_laws(specimen, settings, &mesh)?;
+        let mut followers = match settings.mesh.nz {
+            Some(_) => Followers::default(),
+            None => Followers::uniform_across(&mesh, 0..mesh.nodes().len()),
+        };
         let mut elements: Vec<Box<dyn Element>> = Vec::new();
         let mut weight = Vec::new();
         let mut bands = Vec::new();
@@ -179,44 +181,50 @@ impl Beam {
             for (nodes, coords) in cells(&mesh, name) {
                 weight.extend(loads::body_force(&nodes, &coords, [0.0, -density, 0.0]));
                 let (law, rule) = (law.clone(), settings.integration);
-                let element = Hex20::new(nodes, &coords, rule, law, band)?;
-                bands.push(element.band_width());
-                elements.push(Box::new(element));
+                if followers.is_empty() {
+                    let element = Hex20::new(nodes, &coords, rule, law, band)?;
+                    bands.push(element.band_width());
+                    elements.push(Box::new(element));
+                } else {
+                    let element = UniformHex20::new(nodes, &coords, &followers, rule, law, band)?;
+                    bands.push(element.band_width());
+                    elements.push(Box::new(element));
+                }
             }
         }
         let concrete = 0..elements.len();
         for (name, law) in laws::plates(specimen)? {
             for (nodes, coords) in cells(&mesh, &name) {
                 let (rule, band) = (HexRule::Full, BandWidth::CubeRoot);
-                elements.push(Box::new(Hex20::new(
-                    nodes,
-                    &coords,
-                    rule,
-                    law.clone(),
-                    band,
-                )?));
+                let plate = Hex20::new(nodes, &coords, rule, law.clone(), band)?;
+                let plate = Led::by(Box::new(plate), &followers);
+                elements.push(Box::new(Linear::new(plate)?));
             }
         }
         let plates = concrete.end..elements.len();
         let hosts: Vec<&str> = concrete_laws.iter().map(|(name, _)| *name).collect();
         let carrier = (&mut mesh, hosts.as_slice());
-        let bars = reinforcement::lay(specimen, settings, carrier, &mut elements)?;
+        let bars = reinforcement::lay(specimen, settings, carrier, &followers, &mut elements)?;
         let sheets = match sheets {
             Some(sheets) => {
                 let carrier = (&mut mesh, hosts.as_slice());
                 let (record, added) = sheets::lay(specimen, sheets, settings, carrier)?;
+                if !followers.is_empty() && settings.bond == Bond::Cohesive {
+                    followers.extend(record.uniform_across(&mesh, &added));
+                }
                 let first = elements.len();
                 for element in added {
-                    elements.push(match displaced {
+                    let element = match displaced {
                         Some(displaced) => install(element, &record, displaced)?,
                         None => element,
-                    });
+                    };
+                    elements.push(Led::by(element, &followers));
                 }
                 Some(record.from(first))
             }
             None => None,
         };
-        let model = Model::new(mesh, elements);
+        let model = Model::with_followers(mesh, elements, followers);
         let measures = Measures::new(specimen, &model)?;
         let [weight, loading, unloading] =
             conditions::stages(specimen, &model, &measures, &weight)?;

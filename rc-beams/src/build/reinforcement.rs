@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use fe_contact::BondSlipBar;
 use fe_core::element::Element;
+use fe_core::followers::Followers;
 use fe_core::kinematics::Axial;
 use fe_core::material::Material;
 use fe_core::mesh::Mesh;
-use fe_elements::{Bar, Dowel};
+use fe_elements::{Bar, Dowel, Led};
 use fe_materials::Biso;
 
 use super::{BuildError, ModelSettings, laws, slipping};
@@ -47,6 +48,7 @@ pub(super) fn lay(
     specimen: &Specimen,
     settings: &ModelSettings,
     (mesh, blocks): (&mut Mesh, &[&str]),
+    followers: &Followers,
     elements: &mut Vec<Box<dyn Element>>,
 ) -> Result<Vec<BarRecord>, BuildError> {
     let mut records = Vec::new();
@@ -56,10 +58,11 @@ pub(super) fn lay(
         if let Some(slip) = slip {
             let (steel, around) = slipping::lay(&bar, &slip, mesh, blocks)?;
             elements.extend(steel);
-            bonds = around;
+            bonds = around.into_iter().map(|e| Led::by(e, followers)).collect();
         } else {
             let pieces = fe_elements::embed(&[bar], mesh, blocks)?;
-            elements.extend(pieces.into_iter().map(|e| Box::new(e) as Box<dyn Element>));
+            let led = pieces.into_iter().map(|e| Box::new(e.led_by(followers)));
+            elements.extend(led.map(|e| e as Box<dyn Element>));
         }
         record.elements = first..elements.len();
         elements.extend(bonds);

@@ -6,7 +6,7 @@ use fe_materials::fixed_crack::{
 };
 
 use super::default_mesh;
-use crate::options::{Bond, Cracks, Law, Preset, SheetShear, SoffitFibre, StripBond};
+use crate::options::{Bond, Cracks, Law, MeshSize, Preset, SheetShear, SoffitFibre, StripBond};
 use crate::spec::Specimen;
 
 /// Settings of a model.
@@ -15,7 +15,7 @@ pub struct ModelSettings {
     /// Named set the settings started from.
     pub preset: Preset,
     /// Elements along, over the height of, and across the half beam.
-    pub mesh: [usize; 3],
+    pub mesh: MeshSize,
     /// Integration of the concrete.
     pub integration: HexRule,
     /// Law of the concrete.
@@ -58,7 +58,7 @@ impl ModelSettings {
         };
         let plain = Self {
             preset,
-            mesh: default_mesh(specimen),
+            mesh: default_mesh(specimen, preset),
             integration: HexRule::Irons,
             law: Law::FixedCrack,
             dowel: true,
@@ -136,15 +136,9 @@ impl ModelSettings {
         self
     }
 
-    /// Elements along, up and across, as the command line takes them.
-    pub fn mesh_name(&self) -> String {
-        let [nx, ny, nz] = self.mesh;
-        format!("{nx}x{ny}x{nz}")
-    }
-
     /// Crack-band width (mm) of the average concrete element: the length over which a dowel acts.
     pub(super) fn nominal_band_width(&self, specimen: &Specimen) -> f64 {
-        let [nx, ny, _] = self.mesh.map(|n| n as f64);
+        let [nx, ny] = [self.mesh.nx, self.mesh.ny].map(|n| n as f64);
         let area = specimen.beam.length_mm.get() / nx * specimen.beam.height_mm.get() / ny;
         self.band_factor() * area.sqrt()
     }

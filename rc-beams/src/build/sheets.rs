@@ -7,9 +7,10 @@ use std::sync::Arc;
 use fe_contact::envelope::{Bilinear, LuJoint};
 use fe_contact::{BondSettings, Interface16, InterfaceRule, SlipDamage};
 use fe_core::element::Element;
+use fe_core::followers::Followers;
 use fe_core::mesh::{Mesh, NodeId};
 use fe_core::skin::{self, Layers};
-use fe_elements::{BandWidth, Hex20, HexRule, Membrane8, QuadRule};
+use fe_elements::{BandWidth, Hex20, HexRule, Linear, Membrane8, QuadRule};
 use fe_materials::Elastic;
 use fe_materials::concrete::ConcreteScalars;
 use fe_materials::{Lamina, LaminaParameters, Laminate, Ply};
@@ -77,6 +78,13 @@ impl SheetRecord {
     /// The node of the concrete under a node, itself where it is one of the concrete.
     pub(super) fn carrier(&self, node: NodeId) -> NodeId {
         self.below.get(&node).copied().unwrap_or(node)
+    }
+
+    /// Sheets on soffit and top that are uniform across the width; their `elements` are counted from 0.
+    pub(super) fn uniform_across(&self, mesh: &Mesh, elements: &[Box<dyn Element>]) -> Followers {
+        let flat = self.cells.iter().filter(|cell| cell.face != Face::Side);
+        let nodes = flat.flat_map(|cell| elements[cell.membrane].nodes());
+        Followers::uniform_across(mesh, nodes.copied())
     }
 
     /// The same with all elements counted from `first`.
@@ -181,14 +189,11 @@ pub(super) fn lay(
                     interface: parts.interfaces.len().checked_sub(1),
                 });
                 let coords = above.map(|n| mesh.nodes()[n]);
-                parts.membranes.push(Box::new(Membrane8::new(
-                    above,
-                    &coords,
-                    laminate.thickness_mm(),
-                    QuadRule::Full,
-                    AXIS,
-                    laminate.clone(),
-                )?));
+                let (t, rule) = (laminate.thickness_mm(), QuadRule::Full);
+                let sheet = Membrane8::new(above, &coords, t, rule, AXIS, laminate.clone())?;
+                parts
+                    .membranes
+                    .push(Box::new(Linear::new(Box::new(sheet))?));
             }
             record
                 .below
@@ -269,7 +274,8 @@ impl Parts {
         let coords = nodes.map(|n| mesh.nodes()[n]);
         let (rule, band) = (HexRule::Full, BandWidth::CubeRoot);
         let element = Hex20::new(nodes, &coords, rule, law.clone(), band)?;
-        self.adhesive.push(Box::new(element));
+        self.adhesive
+            .push(Box::new(Linear::new(Box::new(element))?));
         Ok(())
     }
 }

@@ -25,7 +25,7 @@ fn specimen() -> Specimen {
 /// On a coarse mesh, without dowels: slipping bars have none.
 fn beam(specimen: &Specimen) -> Beam {
     let settings = ModelSettings {
-        mesh: [16, 2, 1],
+        mesh: [16, 2, 1].into(),
         dowel: false,
         ..ModelSettings::new(Preset::Physical, specimen)
     };

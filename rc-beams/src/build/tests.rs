@@ -7,7 +7,7 @@ use fe_solver::secant::SecantAnderson;
 use fe_solver::stage::Stage;
 
 use super::{BarKind, Beam, BuildError, ModelSettings};
-use crate::options::Preset;
+use crate::options::{MeshSize, Preset};
 use crate::spec::{BUILTIN, Specimen, read};
 
 fn specimen(name: &str) -> Specimen {
@@ -52,7 +52,8 @@ fn every_specimen_builds() {
     for (name, _) in BUILTIN {
         let (specimen, beam) = (specimen(name), beam(name));
         let stubs = specimen.supports.iter().any(|s| s.stub.is_some());
-        let [nx, ny, nz] = super::default_mesh(&specimen);
+        let MeshSize { nx, ny, nz } = super::default_mesh(&specimen, Preset::Physical);
+        let nz = nz.unwrap_or(1);
         let columns = beam.concrete.len() / (ny * nz);
         let whole = columns <= nx && beam.concrete.len() == columns * ny * nz;
         assert!(2 * columns > nx && (stubs || whole), "{name}");
@@ -64,7 +65,7 @@ fn every_specimen_builds() {
                 let element = &beam.model.elements()[e];
                 let mut state = vec![0.0; element.state_len()];
                 element.init_state(&mut state);
-                let zero = vec![0.0; 60];
+                let zero = vec![0.0; 3 * element.nodes().len()];
                 element
                     .sample(&zero, &state, &mut |s| volume += s.volume)
                     .unwrap();
@@ -109,7 +110,7 @@ fn the_shear_force_of_series_b_is_read_from_reactions() {
 fn too_few_elements_are_refused() {
     let specimen = specimen("A-SO3-1");
     let settings = ModelSettings {
-        mesh: [9, 4, 1],
+        mesh: [9, 4, 1].into(),
         ..ModelSettings::new(Preset::Physical, &specimen)
     };
     let error = Beam::new(&specimen, &settings).unwrap_err();
@@ -117,7 +118,7 @@ fn too_few_elements_are_refused() {
         panic!("{error}");
     };
     let settings = ModelSettings {
-        mesh: [least, 4, 1],
+        mesh: [least, 4, 1].into(),
         ..settings
     };
     assert!(Beam::new(&specimen, &settings).is_ok());

@@ -10,7 +10,7 @@ use super::plan::driver;
 use super::{RunError, build};
 use crate::analysis::{Observer, Reading, Staging, Stepping, analyse};
 use crate::build::{Beam, ModelSettings};
-use crate::options::RunOptions;
+use crate::options::{MeshSize, RunOptions};
 use crate::results::interrupt::Interrupt;
 use crate::results::numerical_error::NumericalError;
 use crate::spec::Specimen;
@@ -45,12 +45,14 @@ pub(super) fn numerical_error(
     interrupt: &Interrupt,
 ) -> Result<Option<NumericalError>, RunError> {
     let halved = peak_kn_of(specimen, settings, &stepping.halved(), options, interrupt)?;
-    let [nx, ny, nz] = settings.mesh;
-    let mesh = [(3 * nx).div_ceil(2), (3 * ny).div_ceil(2), nz];
+    let MeshSize { nx, ny, nz } = settings.mesh;
+    let [nx, ny] = [nx, ny].map(|n| (3 * n).div_ceil(2));
+    let mesh = MeshSize { nx, ny, nz };
     let finer = ModelSettings { mesh, ..*settings };
     let peak = peak_kn_of(specimen, &finer, stepping, options, interrupt)?;
     let peaks = halved.zip(peak);
-    Ok(peaks.map(|(halved, peak)| NumericalError::new(peak_kn, halved, (peak, finer.mesh_name()))))
+    Ok(peaks
+        .map(|(halved, peak)| NumericalError::new(peak_kn, halved, (peak, finer.mesh.to_string()))))
 }
 
 /// Peak load (kN) with the given settings and steps; none when the run was interrupted.

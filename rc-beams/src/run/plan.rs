@@ -41,7 +41,7 @@ pub(super) fn settings(options: &RunOptions, specimen: &Specimen) -> ModelSettin
     settings.strip_bond = options.strip_bond.unwrap_or(settings.strip_bond);
     settings.sheet_shear = options.sheet_shear.unwrap_or(settings.sheet_shear);
     if let Some(mesh) = options.mesh {
-        settings.mesh = [mesh.nx, mesh.ny, mesh.nz];
+        settings.mesh = mesh;
     }
     if let Some(integration) = options.integration {
         settings.integration = match integration {
@@ -49,6 +49,10 @@ pub(super) fn settings(options: &RunOptions, specimen: &Specimen) -> ModelSettin
             Integration::Irons => HexRule::Irons,
             Integration::Full => HexRule::Full,
         };
+    }
+    if options.mesh.is_none() && settings.integration == HexRule::Reduced {
+        // Its points are too few for a model that is uniform across.
+        settings.mesh.nz = settings.mesh.nz.or(Some(1));
     }
     settings
 }
@@ -117,7 +121,7 @@ pub(super) fn setup(
             HexRule::Irons => "irons".into(),
             HexRule::Full => "full".into(),
         },
-        mesh: settings.mesh_name(),
+        mesh: settings.mesh.to_string(),
         elements: beam.model.elements().len(),
         dofs: beam.model.dofs().len(),
         version: env!("CARGO_PKG_VERSION").into(),

@@ -410,9 +410,9 @@ const COMMANDS: &[Arguments] = &[
         &["--mesh", "would take about 18 GB; allowed: up to 4 GB"],
     ),
     (
-        &["run", "A-SO3-1", "--mesh", "60x4"],
+        &["run", "A-SO3-1", "--mesh", "60"],
         2,
-        &["--mesh", "2 counts; write three", "60x4x1"],
+        &["--mesh", "1 counts; write two or three", "60x4x1"],
     ),
     (
         &["run", "A-SO3-1", "--mesh", "60x4xa"],

@@ -1,0 +1,153 @@
+//! Elements that answer with a constant stiffness.
+
+use fe_core::dof::Dof;
+use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
+use fe_core::material::Operator;
+use fe_core::mesh::{CellKind, NodeId};
+
+/// An element of linear laws, whose stiffness is formed once: f = K u, free energy u . K u/2.
+///
+/// Plates, layers of adhesive and sheets need no integration in every evaluation. What is sampled comes from the element
+/// itself.
+#[derive(Debug)]
+pub struct Linear {
+    element: Box<dyn Element>,
+    /// Symmetric, row-major (N/mm).
+    stiffness: Vec<f64>,
+}
+
+/// Relative difference that rounding makes between f and K u.
+const ROUNDING: f64 = 1e-9;
+
+impl Linear {
+    /// The element with its stiffness.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Input`] for an element that has a history or is found not to be linear and symmetric, or its own
+    /// error.
+    pub fn new(element: Box<dyn Element>) -> Result<Self, ElementError> {
+        let n = element.nodes().len() * element.dofs().len();
+        let refuse = |what: &str, value: f64, allowed: &str| ElementError::Input {
+            what: what.into(),
+            value,
+            allowed: allowed.into(),
+            remedy: "use the element as it is".into(),
+        };
+        let variables = element.state_len();
+        if variables > 0 {
+            return Err(refuse("history of a linear element", variables as f64, "0"));
+        }
+        if element.unsymmetric() {
+            return Err(refuse(
+                "unsymmetric stiffness of a linear element",
+                1.0,
+                "0",
+            ));
+        }
+        let mut stiffness = vec![0.0; n * n];
+        let mut force = vec![0.0; n];
+        let ctx = EvaluationContext::new(Operator::Tangent);
+        let out = ElementSystem {
+            force: &mut force,
+            stiffness: &mut stiffness,
+        };
+        element.evaluate(&vec![0.0; n], &[], &mut [], &ctx, out)?;
+        for i in 0..n {
+            for j in 0..i {
+                stiffness[i * n + j] = stiffness[j * n + i];
+            }
+        }
+        let linear = Self { element, stiffness };
+        // Displacements of no particular shape.
+        let u: Vec<f64> = (0..n).map(|i| 1e-3 * (1.0 + i as f64).sin()).collect();
+        let mut own = vec![0.0; n];
+        let ctx = EvaluationContext::new(Operator::None);
+        let out = ElementSystem {
+            force: &mut own,
+            stiffness: &mut [],
+        };
+        linear.element.evaluate(&u, &[], &mut [], &ctx, out)?;
+        let mut expected = force.clone();
+        linear.add_force(&u, &mut expected);
+        let largest = own.iter().fold(0.0_f64, |a, f| a.max(f.abs()));
+        let misses = own.iter().zip(&expected).map(|(a, b)| (a - b).abs());
+        let worst = force
+            .iter()
+            .map(|f| f.abs())
+            .chain(misses)
+            .fold(0.0, f64::max);
+        if worst > ROUNDING * largest {
+            return Err(refuse(
+                "force of a linear element beside K u (N)",
+                worst,
+                "0",
+            ));
+        }
+        Ok(linear)
+    }
+
+    /// Adds K u.
+    fn add_force(&self, u: &[f64], force: &mut [f64]) {
+        for (column, u) in self.stiffness.chunks_exact(u.len()).zip(u) {
+            for (f, k) in force.iter_mut().zip(column) {
+                *f += k * u;
+            }
+        }
+    }
+}
+
+impl Element for Linear {
+    fn nodes(&self) -> &[NodeId] {
+        self.element.nodes()
+    }
+
+    fn dofs(&self) -> &'static [Dof] {
+        self.element.dofs()
+    }
+
+    fn state_len(&self) -> usize {
+        0
+    }
+
+    fn init_state(&self, _: &mut [f64]) {}
+
+    fn evaluate(
+        &self,
+        u: &[f64],
+        committed: &[f64],
+        trial: &mut [f64],
+        ctx: &EvaluationContext,
+        out: ElementSystem<'_>,
+    ) -> Result<(), ElementError> {
+        if u.iter().any(|u| !u.is_finite()) {
+            return self.element.evaluate(u, committed, trial, ctx, out);
+        }
+        self.add_force(u, out.force);
+        if ctx.operator != Operator::None {
+            for (out, k) in out.stiffness.iter_mut().zip(&self.stiffness) {
+                *out += k;
+            }
+        }
+        Ok(())
+    }
+
+    fn cell(&self) -> Option<(CellKind, &[NodeId])> {
+        self.element.cell()
+    }
+
+    fn free_energy(&self, u: &[f64], _: &[f64]) -> Option<f64> {
+        let mut force = vec![0.0; u.len()];
+        self.add_force(u, &mut force);
+        Some(0.5 * u.iter().zip(force).map(|(u, f)| u * f).sum::<f64>())
+    }
+
+    fn sample(
+        &self,
+        u: &[f64],
+        state: &[f64],
+        visit: &mut dyn FnMut(PointSample<'_>),
+    ) -> Result<(), ElementError> {
+        self.element.sample(u, state, visit)
+    }
+}

@@ -1,0 +1,247 @@
+//! Vectorised inner loops of the hexahedron that is uniform across: the hexahedron's, for eight nodes and the four strains
+//! that do not vanish on the plane of symmetry.
+
+use nalgebra::{Matrix6, Vector6};
+use pulp::{Arch, Simd, WithSimd};
+
+/// Nodes, which fill the widest vector.
+pub(super) const NODES: usize = 8;
+/// DOFs.
+const DOFS: usize = 3 * NODES;
+
+/// One value for each node, by direction.
+type ByDirection = [[f64; NODES]; 3];
+
+/// Gradients (1/mm) du/dx and dv/dx, du/dy and dv/dy, dw/dz of the nodes, and the volume (mm3), of one point.
+pub(super) type Point = (ByDirection, f64);
+
+/// Voigt rows of the strains that do not vanish: xx, yy, zz, xy.
+const ROWS: [usize; 4] = [0, 1, 2, 3];
+
+/// Strains B u (Voigt, engineering shear) at the points; `u` node-major.
+pub(super) fn strains(points: &[Point], u: &[f64], out: &mut [Vector6<f64>]) {
+    let mut by = [[0.0; NODES]; 3];
+    for (a, node) in u.chunks_exact(3).take(NODES).enumerate() {
+        for k in 0..3 {
+            by[k][a] = node[k];
+        }
+    }
+    let u = &by;
+    Arch::new().dispatch(Strains { points, u, out });
+}
+
+struct Strains<'a> {
+    points: &'a [Point],
+    u: &'a ByDirection,
+    out: &'a mut [Vector6<f64>],
+}
+
+impl WithSimd for Strains<'_> {
+    type Output = ();
+
+    // Inlining is what compiles the body for the vector unit of the caller.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let [u, v, w] = self.u;
+        let (u, v, w) = (lanes::<S>(u), lanes::<S>(v), lanes::<S>(w));
+        for ((g, _), strain) in self.points.iter().zip(self.out) {
+            let (x, y, z) = (lanes::<S>(&g[0]), lanes::<S>(&g[1]), lanes::<S>(&g[2]));
+            let mut sums = [simd.splat_f64s(0.0); 4];
+            for i in 0..x.len() {
+                sums[0] = simd.mul_add_f64s(x[i], u[i], sums[0]);
+                sums[1] = simd.mul_add_f64s(y[i], v[i], sums[1]);
+                sums[2] = simd.mul_add_f64s(z[i], w[i], sums[2]);
+                sums[3] = simd.mul_add_f64s(y[i], u[i], sums[3]);
+                sums[3] = simd.mul_add_f64s(x[i], v[i], sums[3]);
+            }
+            *strain = Vector6::zeros();
+            for (row, sum) in ROWS.into_iter().zip(sums) {
+                strain[row] = simd.reduce_sum_f64s(sum);
+            }
+        }
+    }
+}
+
+/// Adds the sum over the points of w B^T sigma, node-major.
+pub(super) fn force(points: &[Point], stresses: &[Vector6<f64>], out: &mut [f64]) {
+    let mut sums = [[0.0; NODES]; 3];
+    Arch::new().dispatch(Force {
+        points,
+        stresses,
+        out: &mut sums,
+    });
+    for a in 0..NODES {
+        for k in 0..3 {
+            out[3 * a + k] += sums[k][a];
+        }
+    }
+}
+
+struct Force<'a> {
+    points: &'a [Point],
+    stresses: &'a [Vector6<f64>],
+    out: &'a mut ByDirection,
+}
+
+impl WithSimd for Force<'_> {
+    type Output = ();
+
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let [fu, fv, fw] = self.out;
+        let fu = S::as_mut_simd_f64s(fu).0;
+        let fv = S::as_mut_simd_f64s(fv).0;
+        let fw = S::as_mut_simd_f64s(fw).0;
+        for ((g, w), stress) in self.points.iter().zip(self.stresses) {
+            let (x, y, z) = (lanes::<S>(&g[0]), lanes::<S>(&g[1]), lanes::<S>(&g[2]));
+            let [xx, yy, zz, xy] = ROWS.map(|row| simd.splat_f64s(w * stress[row]));
+            for i in 0..x.len() {
+                fu[i] = simd.mul_add_f64s(x[i], xx, fu[i]);
+                fu[i] = simd.mul_add_f64s(y[i], xy, fu[i]);
+                fv[i] = simd.mul_add_f64s(y[i], yy, fv[i]);
+                fv[i] = simd.mul_add_f64s(x[i], xy, fv[i]);
+                fw[i] = simd.mul_add_f64s(z[i], zz, fw[i]);
+            }
+        }
+    }
+}
+
+/// Adds the sum over the points of w B^T D B to a 24 x 24 row-major matrix.
+pub(super) fn stiffness(points: &[Point], tangents: &[Matrix6<f64>], out: &mut [f64]) {
+    Arch::new().dispatch(Stiffness {
+        points,
+        tangents,
+        out,
+    });
+}
+
+struct Stiffness<'a> {
+    points: &'a [Point],
+    tangents: &'a [Matrix6<f64>],
+    out: &'a mut [f64],
+}
+
+/// Most points of a rule in the plane.
+const MAX_POINTS: usize = 9;
+
+impl WithSimd for Stiffness<'_> {
+    type Output = ();
+
+    #[allow(clippy::inline_always, clippy::large_stack_arrays)]
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let zero = simd.splat_f64s(0.0);
+        // w D B of every point for the nodes of one vector, by row and direction of displacement.
+        let mut db = [[[zero; 3]; 4]; MAX_POINTS];
+        for i in 0..NODES / S::F64_LANES {
+            for ((g, w), (d, t)) in self.points.iter().zip(self.tangents.iter().zip(&mut db)) {
+                let w = simd.splat_f64s(*w);
+                let x = simd.mul_f64s(w, lanes::<S>(&g[0])[i]);
+                let y = simd.mul_f64s(w, lanes::<S>(&g[1])[i]);
+                let z = simd.mul_f64s(w, lanes::<S>(&g[2])[i]);
+                for (row, t) in ROWS.into_iter().zip(t) {
+                    let shear = simd.splat_f64s(d[(row, 3)]);
+                    t[0] = simd.mul_f64s(simd.splat_f64s(d[(row, 0)]), x);
+                    t[0] = simd.mul_add_f64s(shear, y, t[0]);
+                    t[1] = simd.mul_f64s(simd.splat_f64s(d[(row, 1)]), y);
+                    t[1] = simd.mul_add_f64s(shear, x, t[1]);
+                    t[2] = simd.mul_f64s(simd.splat_f64s(d[(row, 2)]), z);
+                }
+            }
+            for a in 0..NODES {
+                let mut sums = [[zero; 3]; 3];
+                for ((g, _), t) in self.points.iter().zip(&db) {
+                    let [x, y, z] = [0, 1, 2].map(|k| simd.splat_f64s(g[k][a]));
+                    for l in 0..3 {
+                        sums[0][l] = simd.mul_add_f64s(x, t[0][l], sums[0][l]);
+                        sums[0][l] = simd.mul_add_f64s(y, t[3][l], sums[0][l]);
+                        sums[1][l] = simd.mul_add_f64s(y, t[1][l], sums[1][l]);
+                        sums[1][l] = simd.mul_add_f64s(x, t[3][l], sums[1][l]);
+                        sums[2][l] = simd.mul_add_f64s(z, t[2][l], sums[2][l]);
+                    }
+                }
+                for (k, sums) in sums.iter().enumerate() {
+                    let mut row = [[0.0_f64; NODES]; 3];
+                    for (row, sum) in row.iter_mut().zip(sums) {
+                        S::as_mut_simd_f64s(row).0[i] = *sum;
+                    }
+                    let out = &mut self.out[(3 * a + k) * DOFS..(3 * a + k + 1) * DOFS];
+                    for b in i * S::F64_LANES..(i + 1) * S::F64_LANES {
+                        for l in 0..3 {
+                            out[3 * b + l] += row[l][b];
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[allow(clippy::inline_always)]
+#[inline(always)]
+fn lanes<S: Simd>(values: &[f64; NODES]) -> &[S::f64s] {
+    S::as_simd_f64s(values).0
+}
+
+#[cfg(test)]
+mod tests {
+    //! Protects the loops against the plain products with the strain matrix.
+    use super::*;
+    use nalgebra::{DMatrix, DVector, SMatrix};
+
+    fn value(i: usize) -> f64 {
+        ((i * i) as f64 * 0.37).sin()
+    }
+
+    fn strain_matrix(g: &ByDirection) -> SMatrix<f64, 6, DOFS> {
+        let mut b = SMatrix::<f64, 6, DOFS>::zeros();
+        for a in 0..NODES {
+            b[(0, 3 * a)] = g[0][a];
+            b[(1, 3 * a + 1)] = g[1][a];
+            b[(2, 3 * a + 2)] = g[2][a];
+            b[(3, 3 * a)] = g[1][a];
+            b[(3, 3 * a + 1)] = g[0][a];
+        }
+        b
+    }
+
+    #[test]
+    fn agree_with_the_plain_products() {
+        let u: Vec<f64> = (0..DOFS).map(value).collect();
+        let (mut points, mut tangents, mut stresses) = (vec![], vec![], vec![]);
+        let mut expected = DMatrix::<f64>::zeros(DOFS, DOFS);
+        let mut resultant = DVector::<f64>::zeros(DOFS);
+        let mut elongations = vec![];
+        for p in 0..9 {
+            let at = |i| value(100 * p + i);
+            let g = std::array::from_fn(|k| std::array::from_fn(|a| at(8 * k + a)));
+            let b = strain_matrix(&g);
+            let (weight, d) = (0.5 + p as f64, Matrix6::from_fn(|i, j| at(30 + 6 * i + j)));
+            let s = Vector6::from_fn(|i, _| at(80 + i));
+            expected += b.transpose() * d * b * weight;
+            resultant += b.transpose() * s * weight;
+            elongations.push(b * DVector::from_column_slice(&u));
+            points.push((g, weight));
+            tangents.push(d);
+            stresses.push(s);
+        }
+        let mut k = vec![0.0; DOFS * DOFS];
+        stiffness(&points, &tangents, &mut k);
+        let mut f = vec![0.0; DOFS];
+        force(&points, &stresses, &mut f);
+        let mut e = vec![Vector6::zeros(); 9];
+        strains(&points, &u, &mut e);
+        for i in 0..DOFS {
+            assert!((f[i] - resultant[i]).abs() < 1e-12 * resultant.amax());
+            for j in 0..DOFS {
+                let miss = k[DOFS * i + j] - expected[(i, j)];
+                assert!(miss.abs() < 1e-12 * expected.amax(), "({i}, {j})");
+            }
+        }
+        for (e, expected) in e.iter().zip(elongations) {
+            assert!((e - expected).norm() < 1e-12);
+        }
+    }
+}

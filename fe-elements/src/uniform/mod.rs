@@ -1,0 +1,141 @@
+//! The 20-node hexahedron of a half body that is uniform across its width.
+
+mod kernel;
+
+use std::sync::Arc;
+
+use fe_core::element::ElementError;
+use fe_core::followers::Followers;
+use fe_core::kinematics::Solid;
+use fe_core::material::Material;
+use fe_core::mesh::NodeId;
+use nalgebra::{Matrix6, Vector6};
+
+use crate::hex20::{self, BandWidth, HexRule};
+use crate::solid::{Interpolation, SolidElement};
+use kernel::{NODES, Point};
+
+/// Hexahedron on the DOFs of the eight nodes that lead the others, see [`Followers::uniform_across`].
+///
+/// With u, v uniform across the width and w in proportion to z, the plane of symmetry stands for the width:
+///
+/// eps = (du/dx, dv/dy, dw/dz, du/dy + dv/dx, 0, 0) at z = 0,  f = b int B^T sigma dA
+///
+/// with b half the width: plane strain whose strain across is an unknown, which settles the stress across, so that
+/// stirrups and sheets take part in it. The shear strains z dw/dx and z dw/dy of a width that varies are left out. An
+/// integration rule keeps its points in the plane: the 9 into which the 14 fall, or 3 x 3.
+pub type UniformHex20 = SolidElement<Slice>;
+
+/// Interpolation of the [`UniformHex20`].
+#[derive(Debug)]
+pub struct Slice {
+    nodes: [NodeId; NODES],
+    cell: [NodeId; 20],
+    points: Vec<Point>,
+}
+
+impl UniformHex20 {
+    /// An element on the cell of 20 `nodes` at `coords` (mm), its third local axis along z from the plane z = 0.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Input`] unless eight of the nodes lead the others and the cell begins at z = 0, and for the reduced
+    /// rule, whose four points leave some of the strains across unseen; otherwise as
+    /// [`Hex20::new`](crate::Hex20::new).
+    pub fn new(
+        cell: [NodeId; 20],
+        coords: &[[f64; 3]; 20],
+        followers: &Followers,
+        rule: HexRule,
+        law: Arc<dyn Material<Solid>>,
+        band: BandWidth,
+    ) -> Result<Self, ElementError> {
+        let mut leaders: Vec<NodeId> = cell.iter().map(|&n| followers.of(n).0).collect();
+        leaders.sort_unstable();
+        leaders.dedup();
+        let refuse = |what: &str, value: f64, allowed: &str| ElementError::Input {
+            what: what.into(),
+            value,
+            allowed: allowed.into(),
+            remedy: "give it one element across, from z = 0 to the outer face".into(),
+        };
+        let nodes = <[NodeId; NODES]>::try_from(leaders).map_err(|leaders| {
+            refuse("leading nodes of the hexahedron", leaders.len() as f64, "8")
+        })?;
+        if rule == HexRule::Reduced {
+            return Err(ElementError::Input {
+                what: "integration points in the plane".into(),
+                value: 4.0,
+                allowed: "9".into(),
+                remedy: "four leave strains across unseen: take the 14-point or the full rule, or hexahedra with DOFs across"
+                    .into(),
+            });
+        }
+        let mut points = Vec::new();
+        let mut positions = Vec::new();
+        for (point, ([xi, eta], w)) in in_plane(rule).into_iter().enumerate() {
+            let (position, gradients, determinant) = hex20::map(coords, point, [xi, eta, -1.0])?;
+            let depth = coords[4][2] - coords[0][2];
+            if position[2].abs() > 1e-6 * depth {
+                return Err(refuse("z of the inner face (mm)", position[2], "0"));
+            }
+            let mut g = [[0.0; NODES]; 3];
+            for (n, d) in cell.iter().zip(gradients) {
+                let (leader, factors) = followers.of(*n);
+                for a in (0..NODES).filter(|&a| nodes[a] == leader) {
+                    for k in 0..3 {
+                        g[k][a] += factors[k] * d[k];
+                    }
+                }
+            }
+            points.push((g, w * determinant));
+            positions.push(position.into());
+        }
+        let volume: f64 = points.iter().map(|p| p.1).sum();
+        let band = band.of(coords, volume, points.len());
+        let slice = Slice {
+            nodes,
+            cell,
+            points,
+        };
+        Self::of(slice, positions, law, band)
+    }
+}
+
+/// Points of a rule in the plane, with the weights of all that lie one behind the other.
+fn in_plane(rule: HexRule) -> Vec<([f64; 2], f64)> {
+    let mut points: Vec<([f64; 2], f64)> = Vec::new();
+    for ([xi, eta, _], w) in rule.points() {
+        match points.iter_mut().find(|(place, _)| *place == [xi, eta]) {
+            Some((_, sum)) => *sum += w,
+            None => points.push(([xi, eta], w)),
+        }
+    }
+    points
+}
+
+impl Interpolation for Slice {
+    fn nodes(&self) -> &[NodeId] {
+        &self.nodes
+    }
+
+    fn cell(&self) -> &[NodeId; 20] {
+        &self.cell
+    }
+
+    fn volumes(&self) -> impl Iterator<Item = f64> {
+        self.points.iter().map(|p| p.1)
+    }
+
+    fn strains(&self, u: &[f64], out: &mut [Vector6<f64>]) {
+        kernel::strains(&self.points, u, out);
+    }
+
+    fn add_force(&self, stresses: &[Vector6<f64>], out: &mut [f64]) {
+        kernel::force(&self.points, stresses, out);
+    }
+
+    fn add_stiffness(&self, tangents: &[Matrix6<f64>], _symmetric: bool, out: &mut [f64]) {
+        kernel::stiffness(&self.points, tangents, out);
+    }
+}
