@@ -1,4 +1,5 @@
-//! Vectorised inner loops of the hexahedron that is uniform across: the hexahedron's, for eight nodes.
+//! Vectorised inner loops of the hexahedron that is uniform across: the hexahedron's, for eight nodes and the four strains
+//! that do not vanish on the plane of symmetry.
 
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
@@ -11,12 +12,11 @@ const DOFS: usize = 3 * NODES;
 /// One value for each node, by direction.
 type ByDirection = [[f64; NODES]; 3];
 
-/// Gradients (1/mm) along x and y of u and v, and along z of w, of the nodes, and the volume (mm3), of one point. Those of w
-/// along x and y are [`LIFT`] times those of u and v.
+/// Gradients (1/mm) du/dx and dv/dx, du/dy and dv/dy, dw/dz of the nodes, and the volume (mm3), of one point.
 pub(super) type Point = (ByDirection, f64);
 
-/// Distance of the points from the plane of symmetry over half the width: there z^2 has its mean.
-pub(super) const LIFT: f64 = 0.577_350_269_189_625_8;
+/// Voigt rows of the strains that do not vanish: xx, yy, zz, xy.
+const ROWS: [usize; 4] = [0, 1, 2, 3];
 
 /// Strains B u (Voigt, engineering shear) at the points; `u` node-major.
 pub(super) fn strains(points: &[Point], u: &[f64], out: &mut [Vector6<f64>]) {
@@ -47,21 +47,18 @@ impl WithSimd for Strains<'_> {
         let (u, v, w) = (lanes::<S>(u), lanes::<S>(v), lanes::<S>(w));
         for ((g, _), strain) in self.points.iter().zip(self.out) {
             let (x, y, z) = (lanes::<S>(&g[0]), lanes::<S>(&g[1]), lanes::<S>(&g[2]));
-            let mut sums = [simd.splat_f64s(0.0); 6];
+            let mut sums = [simd.splat_f64s(0.0); 4];
             for i in 0..x.len() {
                 sums[0] = simd.mul_add_f64s(x[i], u[i], sums[0]);
                 sums[1] = simd.mul_add_f64s(y[i], v[i], sums[1]);
                 sums[2] = simd.mul_add_f64s(z[i], w[i], sums[2]);
                 sums[3] = simd.mul_add_f64s(y[i], u[i], sums[3]);
                 sums[3] = simd.mul_add_f64s(x[i], v[i], sums[3]);
-                sums[4] = simd.mul_add_f64s(y[i], w[i], sums[4]);
-                sums[5] = simd.mul_add_f64s(x[i], w[i], sums[5]);
             }
-            for (e, sum) in strain.iter_mut().zip(sums) {
-                *e = simd.reduce_sum_f64s(sum);
+            *strain = Vector6::zeros();
+            for (row, sum) in ROWS.into_iter().zip(sums) {
+                strain[row] = simd.reduce_sum_f64s(sum);
             }
-            strain[4] *= LIFT;
-            strain[5] *= LIFT;
         }
     }
 }
@@ -99,26 +96,13 @@ impl WithSimd for Force<'_> {
         let fw = S::as_mut_simd_f64s(fw).0;
         for ((g, w), stress) in self.points.iter().zip(self.stresses) {
             let (x, y, z) = (lanes::<S>(&g[0]), lanes::<S>(&g[1]), lanes::<S>(&g[2]));
-            let (xx, yy) = (
-                simd.splat_f64s(w * stress[0]),
-                simd.splat_f64s(w * stress[1]),
-            );
-            let (zz, xy) = (
-                simd.splat_f64s(w * stress[2]),
-                simd.splat_f64s(w * stress[3]),
-            );
-            let (yz, xz) = (
-                simd.splat_f64s(LIFT * w * stress[4]),
-                simd.splat_f64s(LIFT * w * stress[5]),
-            );
+            let [xx, yy, zz, xy] = ROWS.map(|row| simd.splat_f64s(w * stress[row]));
             for i in 0..x.len() {
                 fu[i] = simd.mul_add_f64s(x[i], xx, fu[i]);
                 fu[i] = simd.mul_add_f64s(y[i], xy, fu[i]);
                 fv[i] = simd.mul_add_f64s(y[i], yy, fv[i]);
                 fv[i] = simd.mul_add_f64s(x[i], xy, fv[i]);
                 fw[i] = simd.mul_add_f64s(z[i], zz, fw[i]);
-                fw[i] = simd.mul_add_f64s(y[i], yz, fw[i]);
-                fw[i] = simd.mul_add_f64s(x[i], xz, fw[i]);
             }
         }
     }
@@ -150,40 +134,32 @@ impl WithSimd for Stiffness<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let zero = simd.splat_f64s(0.0);
         // w D B of every point for the nodes of one vector, by row and direction of displacement.
-        let mut db = [[[zero; 3]; 6]; MAX_POINTS];
-        let lift = simd.splat_f64s(LIFT);
+        let mut db = [[[zero; 3]; 4]; MAX_POINTS];
         for i in 0..NODES / S::F64_LANES {
             for ((g, w), (d, t)) in self.points.iter().zip(self.tangents.iter().zip(&mut db)) {
                 let w = simd.splat_f64s(*w);
                 let x = simd.mul_f64s(w, lanes::<S>(&g[0])[i]);
                 let y = simd.mul_f64s(w, lanes::<S>(&g[1])[i]);
                 let z = simd.mul_f64s(w, lanes::<S>(&g[2])[i]);
-                let (lx, ly) = (simd.mul_f64s(lift, x), simd.mul_f64s(lift, y));
-                for (row, t) in t.iter_mut().enumerate() {
+                for (row, t) in ROWS.into_iter().zip(t) {
                     let shear = simd.splat_f64s(d[(row, 3)]);
                     t[0] = simd.mul_f64s(simd.splat_f64s(d[(row, 0)]), x);
                     t[0] = simd.mul_add_f64s(shear, y, t[0]);
                     t[1] = simd.mul_f64s(simd.splat_f64s(d[(row, 1)]), y);
                     t[1] = simd.mul_add_f64s(shear, x, t[1]);
                     t[2] = simd.mul_f64s(simd.splat_f64s(d[(row, 2)]), z);
-                    t[2] = simd.mul_add_f64s(simd.splat_f64s(d[(row, 4)]), ly, t[2]);
-                    t[2] = simd.mul_add_f64s(simd.splat_f64s(d[(row, 5)]), lx, t[2]);
                 }
             }
             for a in 0..NODES {
                 let mut sums = [[zero; 3]; 3];
                 for ((g, _), t) in self.points.iter().zip(&db) {
-                    let (x, y) = (simd.splat_f64s(g[0][a]), simd.splat_f64s(g[1][a]));
-                    let z = simd.splat_f64s(g[2][a]);
-                    let (lx, ly) = (simd.mul_f64s(lift, x), simd.mul_f64s(lift, y));
+                    let [x, y, z] = [0, 1, 2].map(|k| simd.splat_f64s(g[k][a]));
                     for l in 0..3 {
                         sums[0][l] = simd.mul_add_f64s(x, t[0][l], sums[0][l]);
                         sums[0][l] = simd.mul_add_f64s(y, t[3][l], sums[0][l]);
                         sums[1][l] = simd.mul_add_f64s(y, t[1][l], sums[1][l]);
                         sums[1][l] = simd.mul_add_f64s(x, t[3][l], sums[1][l]);
                         sums[2][l] = simd.mul_add_f64s(z, t[2][l], sums[2][l]);
-                        sums[2][l] = simd.mul_add_f64s(ly, t[4][l], sums[2][l]);
-                        sums[2][l] = simd.mul_add_f64s(lx, t[5][l], sums[2][l]);
                     }
                 }
                 for (k, sums) in sums.iter().enumerate() {
@@ -227,8 +203,6 @@ mod tests {
             b[(2, 3 * a + 2)] = g[2][a];
             b[(3, 3 * a)] = g[1][a];
             b[(3, 3 * a + 1)] = g[0][a];
-            b[(4, 3 * a + 2)] = LIFT * g[1][a];
-            b[(5, 3 * a + 2)] = LIFT * g[0][a];
         }
         b
     }

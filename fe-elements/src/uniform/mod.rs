@@ -13,18 +13,17 @@ use nalgebra::{Matrix6, Vector6};
 
 use crate::hex20::{self, BandWidth, HexRule};
 use crate::solid::{Interpolation, SolidElement};
-use kernel::{LIFT, NODES, Point};
+use kernel::{NODES, Point};
 
 /// Hexahedron on the DOFs of the eight nodes that lead the others, see [`Followers::uniform_across`].
 ///
-/// With u, v uniform across the width and w in proportion to z, one plane of points stands for the width, at z = b/sqrt 3,
-/// where z^2 has its mean over half the width b:
+/// With u, v uniform across the width and w in proportion to z, the plane of symmetry stands for the width:
 ///
-/// eps = (du/dx, dv/dy, dw/dz, du/dy + dv/dx, dw/dy, dw/dx) there,  f = b int B^T sigma dA
+/// eps = (du/dx, dv/dy, dw/dz, du/dy + dv/dx, 0, 0) at z = 0,  f = b int B^T sigma dA
 ///
-/// The strain across is an unknown, which settles the stress across, so that stirrups and sheets take part in it. For an
-/// isotropic elastic law the integral over the width is exact. An integration rule keeps its points in the plane: the 9 into
-/// which the 14 fall, or 3 x 3.
+/// with b half the width: plane stress whose stress across is settled by an unknown, so that stirrups and sheets take part in
+/// it. The shear strains z dw/dx and z dw/dy of a width that varies are left out, as plane stress does. An integration rule
+/// keeps its points in the plane: the 9 into which the 14 fall, or 3 x 3.
 pub type UniformHex20 = SolidElement<Slice>;
 
 /// Interpolation of the [`UniformHex20`].
@@ -72,15 +71,14 @@ impl UniformHex20 {
                     .into(),
             });
         }
-        let inner = coords[0][2];
-        if inner.abs() > 1e-6 * (coords[4][2] - inner) {
-            return Err(refuse("z of the inner face (mm)", inner, "0"));
-        }
         let mut points = Vec::new();
         let mut positions = Vec::new();
         for (point, ([xi, eta], w)) in in_plane(rule).into_iter().enumerate() {
-            let (position, gradients, determinant) =
-                hex20::map(coords, point, [xi, eta, 2.0 * LIFT - 1.0])?;
+            let (position, gradients, determinant) = hex20::map(coords, point, [xi, eta, -1.0])?;
+            let depth = coords[4][2] - coords[0][2];
+            if position[2].abs() > 1e-6 * depth {
+                return Err(refuse("z of the inner face (mm)", position[2], "0"));
+            }
             let mut g = [[0.0; NODES]; 3];
             for (n, d) in cell.iter().zip(gradients) {
                 let (leader, factors) = followers.of(*n);
