@@ -39,7 +39,7 @@ pub const KNOWN: &[&str] = ALL.split_at(12).0;
 const BARE: &[&str] = &["A-SO3-1", "A-SO4-1", "A-SW3-1", "A-SW4-1"];
 
 /// A beam of each kind.
-const KINDS: &[&str] = &["A-SO3-1", "A-SW3-1", "A-SO3-2", "A-SW3-2"];
+pub const KINDS: &[&str] = &["A-SO3-1", "A-SW3-1", "A-SO3-2", "A-SW3-2"];
 
 /// Those that are also run as a slow motion.
 const MOTIONS: &[&str] = &["A-SO3-1", "A-SW3-1", "A-SO3-2", "A-SW3-2", "B-CF1"];

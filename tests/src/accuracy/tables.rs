@@ -15,16 +15,16 @@ fn percent(share: Option<f64>) -> String {
     })
 }
 
-fn fixed(value: Option<f64>, digits: usize) -> String {
+pub(super) fn fixed(value: Option<f64>, digits: usize) -> String {
     value.map_or_else(String::new, |v| format!("{v:.digits$}"))
 }
 
-fn row(cells: impl IntoIterator<Item = String>) -> String {
+pub(super) fn row(cells: impl IntoIterator<Item = String>) -> String {
     let cells: Vec<String> = cells.into_iter().collect();
     format!("| {} |\n", cells.join(" | "))
 }
 
-fn header(names: &[&str]) -> String {
+pub(super) fn header(names: &[&str]) -> String {
     let lines = vec!["---".to_owned(); names.len()];
     row(names.iter().map(|n| (*n).to_owned())) + &row(lines)
 }
@@ -86,7 +86,7 @@ pub fn statistics(outcomes: &Outcomes) -> String {
 }
 
 /// Mean of a function of the errors.
-fn mean(errors: &[f64], of: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn mean(errors: &[f64], of: impl Fn(f64) -> f64) -> f64 {
     errors.iter().map(|e| of(*e)).sum::<f64>() / errors.len().max(1) as f64
 }
 

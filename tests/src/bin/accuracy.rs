@@ -1,4 +1,4 @@
-//! Runs the beams as `docs/accuracy.md` shows them and writes its tables: some two hours on two idle cores. What the folder
+//! Runs the beams as `docs/accuracy.md` shows them and writes its tables and chart: some two hours on two idle cores. What the folder
 //! holds is not run again: after a change of the program, take another one.
 //!
 //! Usage: `accuracy RC-BEAMS [FOLDER [tables]]`, the program to run and where its results go; with `tables` nothing is run, what
@@ -11,11 +11,13 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use fe_tests::accuracy::cases::{Case, DEFAULT, NUMERICS, PARAMETERS};
+use fe_tests::accuracy::cost;
 use fe_tests::accuracy::outcome::Outcome;
 use fe_tests::accuracy::tables::{Outcomes, beams, changes, insert, sensitivities, statistics};
 use fe_tests::provenance::commit;
 
 const DOCUMENT: &str = "docs/accuracy.md";
+const CHART: &str = "docs/accuracy.svg";
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1).map(PathBuf::from);
@@ -52,6 +54,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     ];
     if any(&NUMERICS) {
         tables.push(("numerics", changes(&outcomes, &NUMERICS)));
+        tables.push(("cost", cost::table(&outcomes)));
+        fs::write(CHART, cost::chart(&outcomes)?)?;
     }
     if any(&PARAMETERS) {
         tables.push(("parameters", sensitivities(&outcomes, &PARAMETERS)));
