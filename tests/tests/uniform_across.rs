@@ -5,12 +5,14 @@ use std::sync::Arc;
 
 use fe_contact::envelope::{Bilinear, BilinearSlips};
 use fe_contact::{BondSettings, Interface16, InterfaceRule, SlipDamage};
+use fe_core::check;
 use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementSystem, EvaluationContext};
 use fe_core::followers::Followers;
 use fe_core::kinematics::Solid;
 use fe_core::material::{Material, Operator};
 use fe_core::mesh::{CellKind, Mesh, NodeId};
+use fe_core::model::{Conditions, Model, ModelError};
 use fe_core::shape::hex20;
 use fe_core::testing::{ElementCheck, check_element};
 use fe_elements::{BandWidth, Bar, Dowel, Hex20, HexRule, Led, Linear, UniformHex20, embed};
@@ -245,4 +247,43 @@ fn constant_stiffness() {
             .contains("history of a linear element")
     );
     assert_eq!(elastic.dofs(), &Dof::DISPLACEMENTS);
+}
+
+/// Conditions on followers pass to their leaders, and the plane of symmetry needs no support across.
+#[test]
+fn conditions_follow() {
+    let mesh = prism();
+    let followers = Followers::uniform_across(&mesh, 0..20);
+    let law: Arc<dyn Material<Solid>> = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
+    let (rule, band) = (HexRule::Full, BandWidth::CubeRoot);
+    let element = UniformHex20::new(CELL, &coords(&mesh), &followers, rule, law, band).unwrap();
+    let model = Model::with_followers(mesh, vec![Box::new(element)], followers);
+    // Node 16 lies half-way between node 0 on the plane of symmetry and node 4, which leads both.
+    let d = |dof| model.dof(4, dof).unwrap();
+    assert_eq!(model.dof(16, Dof::Ux).unwrap(), d(Dof::Ux));
+    assert!(model.dof(16, Dof::Uz).is_err());
+    let mut conditions = Conditions::new(&model);
+    conditions.add_dead(&model, 16, Dof::Uz, 3.0).unwrap();
+    conditions.add_dead(&model, 0, Dof::Uy, 2.0).unwrap();
+    let mut force = vec![0.0; model.dofs().len()];
+    conditions.external(0.0, &mut force);
+    assert_eq!([force[d(Dof::Uz)], force[d(Dof::Uy)]], [1.5, 2.0]);
+    conditions.prescribe(&model, 16, Dof::Uz, 0.5).unwrap();
+    conditions.fix(&model, 0, Dof::Uz).unwrap();
+    assert_eq!(conditions.prescribed()[&d(Dof::Uz)], 1.0);
+    let error = conditions.prescribe(&model, 0, Dof::Uz, 1.0).unwrap_err();
+    assert!(matches!(error, ModelError::UnusedDof { node: 0, .. }));
+    let mut u = vec![0.0; model.dofs().len()];
+    (u[d(Dof::Ux)], u[d(Dof::Uz)]) = (0.2, 0.4);
+    assert_eq!(model.displacement(16, &u), [0.2, 0.0, 0.2]);
+    assert_eq!(model.displacement(0, &u), [0.2, 0.0, 0.0]);
+
+    let mut held = Conditions::new(&model);
+    for (node, dof) in [(4, Dof::Ux), (4, Dof::Uy)] {
+        held.fix(&model, node, dof).unwrap();
+    }
+    let error = check::held(&model, &held).unwrap_err().to_string();
+    assert!(error.contains("turn about an axis along z"), "{error}");
+    held.fix(&model, 5, Dof::Uy).unwrap();
+    check::held(&model, &held).unwrap();
 }
