@@ -231,7 +231,7 @@ impl Element for Interface16 {
         let n = self.law.state_len();
         let point_ctx = points::context(self.size, ctx);
         // Sums of w J N_a N_b D, of which the blocks of K are copies.
-        let mut sums = [[[[0.0; 3]; 3]; 8]; 8];
+        let mut sums = (ctx.operator != Operator::None).then_some([[[[0.0; 3]; 3]; 8]; 8]);
         for (p, point) in self.points.iter().enumerate() {
             let range = p * n..(p + 1) * n;
             let response = self
@@ -250,9 +250,9 @@ impl Element for Interface16 {
                     f[k] += s * traction[k];
                 }
             }
-            if ctx.operator == Operator::None {
+            let Some(sums) = &mut sums else {
                 continue;
-            }
+            };
             let d = point.axes.tr_mul(&response.tangent) * point.axes * point.area;
             for a in 0..8 {
                 for b in 0..8 {
@@ -265,7 +265,7 @@ impl Element for Interface16 {
                 }
             }
         }
-        if ctx.operator != Operator::None {
+        if let Some(sums) = sums {
             spread(&sums, out.stiffness);
         }
         Ok(())

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::dof::Dof;
 use crate::mesh::{Mesh, NodeId};
 
 /// Positions closer than this (mm) are the same.
@@ -58,6 +59,12 @@ impl Followers {
     /// Leader and factors of a node; itself and ones for a node that follows none.
     pub fn of(&self, node: NodeId) -> (NodeId, [f64; 3]) {
         self.0.get(&node).copied().unwrap_or((node, [1.0; 3]))
+    }
+
+    /// Leader of a node and factor of one DOF; rotations are the leader's.
+    pub fn dof(&self, node: NodeId, dof: Dof) -> (NodeId, f64) {
+        let (leader, factors) = self.of(node);
+        (leader, factors.get(dof as usize).copied().unwrap_or(1.0))
     }
 
     /// Every follower with its leader and factors.

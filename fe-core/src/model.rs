@@ -170,9 +170,8 @@ impl Model {
         if node >= nodes {
             return Err(ModelError::NoSuchNode { node, nodes });
         }
-        let (leader, factors) = self.followers.of(node);
+        let (leader, factor) = self.followers.dof(node, dof);
         let index = self.dofs.index(leader, dof);
-        let factor = factors.get(dof as usize).copied().unwrap_or(1.0);
         index.map_or_else(|| Err(self.unused(node, dof)), |d| Ok((d, factor)))
     }
 
@@ -187,10 +186,10 @@ impl Model {
 
     /// Displacement (mm) of a node at the displacement `u` of all DOFs; zero where no element uses the DOF.
     pub fn displacement(&self, node: NodeId, u: &[f64]) -> [f64; 3] {
-        let (leader, factors) = self.followers.of(node);
-        std::array::from_fn(|k| {
-            let index = self.dofs.index(leader, Dof::DISPLACEMENTS[k]);
-            index.map_or(0.0, |i| factors[k] * u[i])
+        Dof::DISPLACEMENTS.map(|dof| {
+            let (leader, factor) = self.followers.dof(node, dof);
+            let index = self.dofs.index(leader, dof);
+            index.map_or(0.0, |i| factor * u[i])
         })
     }
 

@@ -148,12 +148,7 @@ impl Interpolation for Brick {
     }
 
     fn add_force(&self, stresses: &[Vector6<f64>], out: &mut [f64]) {
-        let force = kernel::force(&self.points, stresses);
-        for a in 0..20 {
-            for k in 0..3 {
-                out[3 * a + k] += force[k][a];
-            }
-        }
+        kernel::add_by_node(&kernel::force(&self.points, stresses), out);
     }
 
     fn add_stiffness(&self, tangents: &[Matrix6<f64>], symmetric: bool, out: &mut [f64]) {

@@ -24,15 +24,24 @@ pub(crate) type Point = (Gradients, f64);
 /// direction x gives xx, xy, xz; y gives xy, yy, yz; z gives xz, yz, zz.
 const ROWS: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 
-/// Displacements by direction, padded.
-pub(crate) fn by_direction(u: &[f64]) -> Gradients {
-    let mut out = [[0.0; PAD]; 3];
-    for (a, node) in u.chunks_exact(3).take(20).enumerate() {
+/// Node-major values by direction, padded to `N` nodes.
+pub(crate) fn by_direction<const N: usize>(u: &[f64]) -> [[f64; N]; 3] {
+    let mut out = [[0.0; N]; 3];
+    for (a, node) in u.chunks_exact(3).enumerate() {
         for k in 0..3 {
             out[k][a] = node[k];
         }
     }
     out
+}
+
+/// Adds values by direction to node-major ones.
+pub(crate) fn add_by_node<const N: usize>(values: &[[f64; N]; 3], out: &mut [f64]) {
+    for (a, node) in out.chunks_exact_mut(3).enumerate() {
+        for k in 0..3 {
+            node[k] += values[k][a];
+        }
+    }
 }
 
 /// Strains B u (Voigt, engineering shear) at the points.

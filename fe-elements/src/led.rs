@@ -1,16 +1,22 @@
 //! Elements on nodes that follow others.
 
+use std::borrow::Cow;
+
 use fe_core::dof::Dof;
-use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
+use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext};
 use fe_core::followers::Followers;
 use fe_core::material::Operator;
-use fe_core::mesh::{CellKind, NodeId};
+use fe_core::mesh::NodeId;
+
+use crate::seen::{Seen, View};
 
 /// An element on the DOFs of the leaders of its nodes: u = T u_led, f = T^T f, K = T^T K T, where each row of T has one
 /// entry, the factor of a follower.
+pub type Led = Seen<Fold>;
+
+/// Where the DOFs of an element that is [`Led`] come from.
 #[derive(Debug)]
-pub struct Led {
-    element: Box<dyn Element>,
+pub struct Fold {
     nodes: Vec<NodeId>,
     /// Column and entry of every row of T.
     columns: Vec<(usize, f64)>,
@@ -23,22 +29,15 @@ impl Led {
             return element;
         }
         let (nodes, columns) = columns(element.nodes(), element.dofs(), followers);
-        Box::new(Self {
-            element,
-            nodes,
-            columns,
-        })
+        let view = Fold { nodes, columns };
+        Box::new(Self { element, view })
     }
+}
 
-    fn full(&self, u: &[f64]) -> Vec<f64> {
-        self.columns.iter().map(|&(c, t)| t * u[c]).collect()
-    }
-
-    /// Whether the element has filled the upper triangle only.
-    fn fills_upper(&self, ctx: &EvaluationContext) -> bool {
-        let unsymmetric = self.element.unsymmetric() && ctx.operator == Operator::Tangent;
-        !unsymmetric || (ctx.symmetric_part && self.element.fills_symmetric_part())
-    }
+/// Whether an element fills the upper triangle only.
+fn fills_upper(element: &dyn Element, ctx: &EvaluationContext) -> bool {
+    let unsymmetric = element.unsymmetric() && ctx.operator == Operator::Tangent;
+    !unsymmetric || (ctx.symmetric_part && element.fills_symmetric_part())
 }
 
 /// Leaders of `nodes`, each once, and column and entry of every row of T, node-major.
@@ -50,42 +49,33 @@ pub(crate) fn columns(
     let mut leaders: Vec<NodeId> = Vec::new();
     let mut columns = Vec::new();
     for &node in nodes {
-        let (leader, factors) = followers.of(node);
+        let leader = followers.of(node).0;
         let known = leaders.iter().position(|&n| n == leader);
         let at = known.unwrap_or(leaders.len());
         if known.is_none() {
             leaders.push(leader);
         }
         for (k, &dof) in dofs.iter().enumerate() {
-            let factor = factors.get(dof as usize).copied().unwrap_or(1.0);
-            columns.push((dofs.len() * at + k, factor));
+            columns.push((dofs.len() * at + k, followers.dof(node, dof).1));
         }
     }
     (leaders, columns)
 }
 
-impl Element for Led {
-    fn nodes(&self) -> &[NodeId] {
+impl View for Fold {
+    fn nodes<'a>(&'a self, _: &'a [NodeId]) -> &'a [NodeId] {
         &self.nodes
     }
 
-    fn dofs(&self) -> &'static [Dof] {
-        self.element.dofs()
-    }
-
-    fn state_len(&self) -> usize {
-        self.element.state_len()
-    }
-
-    fn init_state(&self, state: &mut [f64]) {
-        self.element.init_state(state);
+    fn own<'a>(&self, u: &'a [f64]) -> Cow<'a, [f64]> {
+        self.columns.iter().map(|&(c, t)| t * u[c]).collect()
     }
 
     fn evaluate(
         &self,
+        element: &dyn Element,
         u: &[f64],
-        committed: &[f64],
-        trial: &mut [f64],
+        (committed, trial): (&[f64], &mut [f64]),
         ctx: &EvaluationContext,
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
@@ -96,12 +86,11 @@ impl Element for Led {
             force: &mut force,
             stiffness: &mut stiffness,
         };
-        self.element
-            .evaluate(&self.full(u), committed, trial, ctx, own)?;
+        element.evaluate(&self.own(u), committed, trial, ctx, own)?;
         for (f, &(c, t)) in force.iter().zip(&self.columns) {
             out.force[c] += t * f;
         }
-        let upper = self.fills_upper(ctx);
+        let upper = fills_upper(element, ctx);
         for (i, row) in stiffness.chunks_exact(n).enumerate() {
             let (a, s) = self.columns[i];
             for (j, &(b, t)) in self.columns.iter().enumerate() {
@@ -114,51 +103,5 @@ impl Element for Led {
             }
         }
         Ok(())
-    }
-
-    fn cell(&self) -> Option<(CellKind, &[NodeId])> {
-        self.element.cell()
-    }
-
-    fn interface_face(&self) -> Option<[NodeId; 8]> {
-        self.element.interface_face()
-    }
-
-    fn unsymmetric(&self) -> bool {
-        self.element.unsymmetric()
-    }
-
-    fn fills_symmetric_part(&self) -> bool {
-        self.element.fills_symmetric_part()
-    }
-
-    fn latch(&self, trial: &[f64], base: &mut [f64]) -> bool {
-        self.element.latch(trial, base)
-    }
-
-    fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
-        self.element.free_energy(&self.full(u), state)
-    }
-
-    fn sample(
-        &self,
-        u: &[f64],
-        state: &[f64],
-        visit: &mut dyn FnMut(PointSample<'_>),
-    ) -> Result<(), ElementError> {
-        self.element.sample(&self.full(u), state, visit)
-    }
-
-    fn host(&self) -> Option<&[NodeId; 20]> {
-        self.element.host()
-    }
-
-    fn segments(
-        &self,
-        u: &[f64],
-        state: &[f64],
-        visit: &mut dyn FnMut([[f64; 3]; 2], f64),
-    ) -> Result<(), ElementError> {
-        self.element.segments(&self.full(u), state, visit)
     }
 }

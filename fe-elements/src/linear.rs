@@ -1,20 +1,19 @@
 //! Elements that answer with a constant stiffness.
 
-use fe_core::dof::Dof;
-use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
+use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext};
 use fe_core::material::Operator;
-use fe_core::mesh::{CellKind, NodeId};
+
+use crate::seen::{Seen, View};
 
 /// An element of linear laws, whose stiffness is formed once: f = K u, free energy u . K u/2.
 ///
 /// Plates, layers of adhesive and sheets need no integration in every evaluation. What is sampled comes from the element
 /// itself.
+pub type Linear = Seen<Constant>;
+
+/// The stiffness (N/mm) of a [`Linear`] element, symmetric, row-major.
 #[derive(Debug)]
-pub struct Linear {
-    element: Box<dyn Element>,
-    /// Symmetric, row-major (N/mm).
-    stiffness: Vec<f64>,
-}
+pub struct Constant(Vec<f64>);
 
 /// Relative difference that rounding makes between f and K u.
 const ROUNDING: f64 = 1e-9;
@@ -58,7 +57,7 @@ impl Linear {
                 stiffness[i * n + j] = stiffness[j * n + i];
             }
         }
-        let linear = Self { element, stiffness };
+        let view = Constant(stiffness);
         // Displacements of no particular shape.
         let u: Vec<f64> = (0..n).map(|i| 1e-3 * (1.0 + i as f64).sin()).collect();
         let mut own = vec![0.0; n];
@@ -67,9 +66,9 @@ impl Linear {
             force: &mut own,
             stiffness: &mut [],
         };
-        linear.element.evaluate(&u, &[], &mut [], &ctx, out)?;
+        element.evaluate(&u, &[], &mut [], &ctx, out)?;
         let mut expected = force.clone();
-        linear.add_force(&u, &mut expected);
+        view.add_force(&u, &mut expected);
         let largest = own.iter().fold(0.0_f64, |a, f| a.max(f.abs()));
         let misses = own.iter().zip(&expected).map(|(a, b)| (a - b).abs());
         let worst = force
@@ -84,12 +83,14 @@ impl Linear {
                 "0",
             ));
         }
-        Ok(linear)
+        Ok(Self { element, view })
     }
+}
 
+impl Constant {
     /// Adds K u.
     fn add_force(&self, u: &[f64], force: &mut [f64]) {
-        for (column, u) in self.stiffness.chunks_exact(u.len()).zip(u) {
+        for (column, u) in self.0.chunks_exact(u.len()).zip(u) {
             for (f, k) in force.iter_mut().zip(column) {
                 *f += k * u;
             }
@@ -97,57 +98,30 @@ impl Linear {
     }
 }
 
-impl Element for Linear {
-    fn nodes(&self) -> &[NodeId] {
-        self.element.nodes()
-    }
-
-    fn dofs(&self) -> &'static [Dof] {
-        self.element.dofs()
-    }
-
-    fn state_len(&self) -> usize {
-        0
-    }
-
-    fn init_state(&self, _: &mut [f64]) {}
-
+impl View for Constant {
     fn evaluate(
         &self,
+        element: &dyn Element,
         u: &[f64],
-        committed: &[f64],
-        trial: &mut [f64],
+        (committed, trial): (&[f64], &mut [f64]),
         ctx: &EvaluationContext,
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
         if u.iter().any(|u| !u.is_finite()) {
-            return self.element.evaluate(u, committed, trial, ctx, out);
+            return element.evaluate(u, committed, trial, ctx, out);
         }
         self.add_force(u, out.force);
         if ctx.operator != Operator::None {
-            for (out, k) in out.stiffness.iter_mut().zip(&self.stiffness) {
+            for (out, k) in out.stiffness.iter_mut().zip(&self.0) {
                 *out += k;
             }
         }
         Ok(())
     }
 
-    fn cell(&self) -> Option<(CellKind, &[NodeId])> {
-        self.element.cell()
-    }
-
-    fn free_energy(&self, u: &[f64], _: &[f64]) -> Option<f64> {
+    fn free_energy(&self, _: &dyn Element, u: &[f64], _: &[f64]) -> Option<f64> {
         let mut force = vec![0.0; u.len()];
         self.add_force(u, &mut force);
         Some(0.5 * u.iter().zip(force).map(|(u, f)| u * f).sum::<f64>())
-    }
-
-    fn sample(
-        &self,
-        u: &[f64],
-        state: &[f64],
-        visit: &mut dyn FnMut(PointSample<'_>),
-    ) -> Result<(), ElementError> {
-        self.element.sample(u, state, visit)
     }
 }

@@ -251,11 +251,12 @@ impl SecantAnderson {
         loop {
             let residual = descent.run(stage, criterion, LEG, log)?;
             let iterations = spent + descent.iterations;
-            let collapsed = Self::loss(stage) >= COLLAPSE;
+            let loss = Self::loss(stage);
+            let collapsed = loss >= COLLAPSE;
             let limit = if collapsed { limit / 4 } else { limit };
             let over = iterations >= limit || !residual.relative.is_finite();
             // A snap that loses load is to be placed by shorter steps first: no use to follow it down.
-            let lost = !last_resort && Self::loss(stage) >= DROP_FALL;
+            let lost = !last_resort && loss >= DROP_FALL;
             if residual.relative <= criterion || over || lost {
                 return Ok(Snap {
                     free: descent.free,

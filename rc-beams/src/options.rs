@@ -373,12 +373,10 @@ impl MeshSize {
     /// a layer of elements is coupled with the next, and the band is filled.
     fn factor_gb(self) -> f64 {
         let [nx, ny] = [self.nx, self.ny].map(|n| n as f64);
-        let nodes = |nz: f64| {
-            let face = (2.0 * ny + 1.0) * (2.0 * nz + 1.0) - ny * nz;
-            (face, (ny + 1.0) * (nz + 1.0))
-        };
-        // Uniform across, as on one face.
-        let (face, middle) = nodes(self.nz.map_or(0.0, |nz| nz as f64));
+        // Uniform across, there are as many DOFs as on one face.
+        let nz = self.nz.map_or(0.0, |nz| nz as f64);
+        let face = (2.0 * ny + 1.0) * (2.0 * nz + 1.0) - ny * nz;
+        let middle = (ny + 1.0) * (nz + 1.0);
         let layer = 3.0 * (face + middle);
         8.0 * nx * layer * layer / 1e9
     }

@@ -18,15 +18,8 @@ pub(super) type Point = (ByDirection, f64);
 /// Voigt rows of the strains that do not vanish: xx, yy, zz, xy.
 const ROWS: [usize; 4] = [0, 1, 2, 3];
 
-/// Strains B u (Voigt, engineering shear) at the points; `u` node-major.
-pub(super) fn strains(points: &[Point], u: &[f64], out: &mut [Vector6<f64>]) {
-    let mut by = [[0.0; NODES]; 3];
-    for (a, node) in u.chunks_exact(3).take(NODES).enumerate() {
-        for k in 0..3 {
-            by[k][a] = node[k];
-        }
-    }
-    let u = &by;
+/// Strains B u (Voigt, engineering shear) at the points.
+pub(super) fn strains(points: &[Point], u: &ByDirection, out: &mut [Vector6<f64>]) {
     Arch::new().dispatch(Strains { points, u, out });
 }
 
@@ -63,19 +56,15 @@ impl WithSimd for Strains<'_> {
     }
 }
 
-/// Adds the sum over the points of w B^T sigma, node-major.
-pub(super) fn force(points: &[Point], stresses: &[Vector6<f64>], out: &mut [f64]) {
+/// Sum over the points of w B^T sigma, by direction.
+pub(super) fn force(points: &[Point], stresses: &[Vector6<f64>]) -> ByDirection {
     let mut sums = [[0.0; NODES]; 3];
     Arch::new().dispatch(Force {
         points,
         stresses,
         out: &mut sums,
     });
-    for a in 0..NODES {
-        for k in 0..3 {
-            out[3 * a + k] += sums[k][a];
-        }
-    }
+    sums
 }
 
 struct Force<'a> {
@@ -189,6 +178,7 @@ fn lanes<S: Simd>(values: &[f64; NODES]) -> &[S::f64s] {
 mod tests {
     //! Protects the loops against the plain products with the strain matrix.
     use super::*;
+    use crate::kernel::{add_by_node, by_direction};
     use nalgebra::{DMatrix, DVector, SMatrix};
 
     fn value(i: usize) -> f64 {
@@ -230,9 +220,9 @@ mod tests {
         let mut k = vec![0.0; DOFS * DOFS];
         stiffness(&points, &tangents, &mut k);
         let mut f = vec![0.0; DOFS];
-        force(&points, &stresses, &mut f);
+        add_by_node(&force(&points, &stresses), &mut f);
         let mut e = vec![Vector6::zeros(); 9];
-        strains(&points, &u, &mut e);
+        strains(&points, &by_direction(&u), &mut e);
         for i in 0..DOFS {
             assert!((f[i] - resultant[i]).abs() < 1e-12 * resultant.amax());
             for j in 0..DOFS {

@@ -9,9 +9,11 @@ use fe_core::followers::Followers;
 use fe_core::kinematics::Solid;
 use fe_core::material::Material;
 use fe_core::mesh::NodeId;
+use fe_core::shape::hex20 as shape;
 use nalgebra::{Matrix6, Vector6};
 
 use crate::hex20::{self, BandWidth, HexRule};
+use crate::kernel::{add_by_node, by_direction};
 use crate::solid::{Interpolation, SolidElement};
 use kernel::{NODES, Point};
 
@@ -71,18 +73,19 @@ impl UniformHex20 {
                     .into(),
             });
         }
+        let depth = coords[4][2] - coords[0][2];
+        let inner = shape::FACES[4].map(|a| coords[a][2]);
+        if let Some(z) = inner.into_iter().find(|z| z.abs() > 1e-6 * depth) {
+            return Err(refuse("z of the inner face (mm)", z, "0"));
+        }
         let mut points = Vec::new();
         let mut positions = Vec::new();
         for (point, ([xi, eta], w)) in in_plane(rule).into_iter().enumerate() {
             let (position, gradients, determinant) = hex20::map(coords, point, [xi, eta, -1.0])?;
-            let depth = coords[4][2] - coords[0][2];
-            if position[2].abs() > 1e-6 * depth {
-                return Err(refuse("z of the inner face (mm)", position[2], "0"));
-            }
             let mut g = [[0.0; NODES]; 3];
             for (n, d) in cell.iter().zip(gradients) {
                 let (leader, factors) = followers.of(*n);
-                for a in (0..NODES).filter(|&a| nodes[a] == leader) {
+                if let Ok(a) = nodes.binary_search(&leader) {
                     for k in 0..3 {
                         g[k][a] += factors[k] * d[k];
                     }
@@ -128,11 +131,11 @@ impl Interpolation for Slice {
     }
 
     fn strains(&self, u: &[f64], out: &mut [Vector6<f64>]) {
-        kernel::strains(&self.points, u, out);
+        kernel::strains(&self.points, &by_direction(u), out);
     }
 
     fn add_force(&self, stresses: &[Vector6<f64>], out: &mut [f64]) {
-        kernel::force(&self.points, stresses, out);
+        add_by_node(&kernel::force(&self.points, stresses), out);
     }
 
     fn add_stiffness(&self, tangents: &[Matrix6<f64>], _symmetric: bool, out: &mut [f64]) {

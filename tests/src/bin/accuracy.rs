@@ -1,5 +1,5 @@
-//! Runs the beams as `docs/accuracy.md` shows them and writes its tables and chart: some two hours on two idle cores. What the folder
-//! holds is not run again: after a change of the program, take another one.
+//! Runs the beams as `docs/accuracy.md` shows them and writes its tables and chart: some two hours on two idle cores. What
+//! the folder holds is not run again: after a change of the program, take another one.
 //!
 //! Usage: `accuracy RC-BEAMS [FOLDER [tables]]`, the program to run and where its results go; with `tables` nothing is run, what
 //! is missing stays blank, and tables of which all is missing stay as they are.
