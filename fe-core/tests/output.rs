@@ -114,6 +114,7 @@ fn a_series_holds_the_fields_of_cells_and_bars() {
     let mut series = FieldSeries::create(&folder, "fields").unwrap();
     series.record(0.5, &model, &u, &state).unwrap();
     series.record(1.0, &model, &u, &state).unwrap();
+    series.flush().unwrap();
     let cells = arrays(&folder.join("fields_0001.vtu"));
     assert_eq!(
         floats(&cells["Points"]).len(),
@@ -195,6 +196,20 @@ fn a_folder_that_is_not_there_is_an_error_with_its_path() {
     let error = FieldSeries::create(&missing, "fields").unwrap_err();
     assert!(matches!(&error, OutputError::Io { path, .. } if path.starts_with(&missing)));
     assert!(error.to_string().contains("nowhere"), "{error}");
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_an_error_of_the_series() {
+    let folder = folder("refused");
+    let (model, u, state) = model();
+    let mut series = FieldSeries::create(&folder, "fields").unwrap();
+    // A folder in place of the temporary file.
+    fs::create_dir(folder.join("fields_bars_0001.vtu.part")).unwrap();
+    let told = series.record(0.5, &model, &u, &state);
+    let error = told.and_then(|()| series.flush()).unwrap_err();
+    assert!(error.to_string().contains("fields_bars_0001"), "{error}");
+    let pvd = fs::read_to_string(folder.join("fields.pvd")).unwrap();
+    assert!(!pvd.contains("DataSet"), "{pvd}");
 }
 
 #[test]

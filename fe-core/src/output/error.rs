@@ -17,6 +17,9 @@ pub enum OutputError {
         /// What the system said.
         source: io::Error,
     },
+    /// The writing ended before, with an error that has been told.
+    #[error("not written: a file before it could not be")]
+    Ended,
     /// An element could not be evaluated.
     #[error("cannot sample the results: {0}")]
     Model(#[from] ModelError),

@@ -4,6 +4,7 @@
 //! interfaces, and a `.pvd` collection that ties them to a time. Every file is written beside its final place and then
 //! renamed, so that a run killed at any moment leaves complete files and a readable collection.
 
+mod background;
 mod bars;
 mod cells;
 mod error;

@@ -121,8 +121,8 @@ impl Progress {
     }
 
     /// Ends; the result is for standard output.
-    pub fn finish(self) {
-        match self.display {
+    pub fn finish(&self) {
+        match &self.display {
             Display::Bar(bar) => bar.finish_and_clear(),
             Display::Lines { .. } => say(&format!("{}: finished, {}", self.name, self.status)),
         }

@@ -144,7 +144,8 @@ fn run(
     let beam = outcome.ended_on.as_ref().unwrap_or(&beam);
     let peak = outcome.peak.iter().filter(|peak| **peak != outcome.last);
     let states: Vec<_> = peak.chain([&outcome.last]).collect();
-    let (watch, writing) = recording.finish(&beam.model, &states)?;
+    let writing = recording.finish(&beam.model, &states)?;
+    let watch = recording.watch();
     let mut wall = WallTime {
         output: writing.as_secs_f64(),
         ..WallTime::default()
@@ -202,13 +203,7 @@ fn run(
         }
         _ => None,
     };
-    let diagnosis = diagnosis(
-        &layout,
-        (&peak, &last),
-        &outcome,
-        (&capacity, ratio),
-        &watch,
-    );
+    let diagnosis = diagnosis(&layout, (&peak, &last), &outcome, (&capacity, ratio), watch);
     let setup = setup(specimen, options, &settings, beam, driver.name());
     let drawing = Instant::now();
     pictures::curve(&folder, specimen, &setup, &outcome, (&capacity, &verdict))?;

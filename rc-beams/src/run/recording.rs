@@ -32,7 +32,7 @@ pub(super) struct Recording<'a> {
     gauges: Vec<Gauge>,
     watch: Watch,
     fields: Fields,
-    /// Where every step is written.
+    /// Where fields are written. Its thread lives as long as this, so that its time is counted.
     series: Option<FieldSeries>,
     progress: Progress,
     interrupt: &'a Interrupt,
@@ -88,24 +88,33 @@ impl<'a> Recording<'a> {
         self.resuming
     }
 
-    /// Ends; writes the fields of the given states of a model, unless every step has been written. Returns
-    /// the evidence gathered and the wall time spent writing.
+    /// Writes the fields of the given states of a model, unless every step has been recorded, and waits for what is not
+    /// written yet. Returns the wall time spent on output.
     pub(super) fn finish(
-        self,
+        &mut self,
         model: &Model,
         states: &[&Snapshot],
-    ) -> Result<(Watch, Duration), ResultsError> {
+    ) -> Result<Duration, ResultsError> {
         let begin = Instant::now();
+        let refused = |source| refused(&self.folder, source);
         if self.fields == Fields::Last {
-            let mut series = series(&self.folder)?;
+            let series = self.series.insert(series(&self.folder)?);
             for s in states {
                 series
                     .record(s.deflection_mm, model, &s.displacement, &s.state)
-                    .map_err(|source| refused(&self.folder, source))?;
+                    .map_err(refused)?;
             }
         }
+        if let Some(series) = &mut self.series {
+            series.flush().map_err(refused)?;
+        }
         self.progress.finish();
-        Ok((self.watch, self.spent + begin.elapsed()))
+        Ok(self.spent + begin.elapsed())
+    }
+
+    /// The evidence gathered.
+    pub(super) const fn watch(&self) -> &Watch {
+        &self.watch
     }
 
     fn record(&mut self, view: &StepView<'_>, reading: &Reading, step: usize) -> io::Result<()> {
