@@ -28,6 +28,9 @@ pub const CAPACITY_FALL: f64 = 0.20;
 /// Fall after a local maximum that makes it a drop.
 pub const DROP_FALL: f64 = 0.05;
 
+/// A path that stays above that fall up to this multiple of the deflection at its peak is a plateau.
+pub const PLATEAU_REACH: f64 = 1.5;
+
 /// Fall within one step at a held load factor that makes it a jump.
 pub const JUMP_FALL: f64 = 0.01;
 
@@ -55,6 +58,8 @@ pub struct Capacity {
     /// Whether a single jump of that part of the path falls by [`DROP_FALL`] of the peak: the drop is
     /// vertical, no static equilibrium exists along it.
     pub vertical_drop: bool,
+    /// Whether the load stays within [`DROP_FALL`] of the peak up to [`PLATEAU_REACH`] times the deflection there.
+    pub plateau: bool,
 }
 
 impl Capacity {
@@ -80,11 +85,14 @@ impl Capacity {
         let beyond = path[best..].iter().position(|p| p.load > peak.load);
         let after = &path[best..beyond.map_or(path.len(), |n| best + n)];
         let lowest = after.iter().map(|p| p.load).fold(peak.load, f64::min);
+        let post_peak_drop = relative_fall(peak.load, lowest);
+        let reached = after.last().map_or(0.0, |p| p.deflection);
         Some(Self {
             peak: best,
             fell,
             first_drop,
-            post_peak_drop: relative_fall(peak.load, lowest),
+            post_peak_drop,
+            plateau: post_peak_drop < DROP_FALL && reached > PLATEAU_REACH * peak.deflection,
             vertical_drop: after.windows(2).any(|pair| {
                 is_jump(pair, 1) && pair[0].load - pair[1].load >= DROP_FALL * peak.load
             }),
@@ -359,6 +367,15 @@ mod tests {
         let c = Capacity::of(&path(&[0.0, 100.0, 79.0, 150.0, 10.0])).unwrap();
         assert_eq!((c.peak, c.fell), (1, true));
         assert!((c.post_peak_drop - 0.21).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_plateau_stays_near_the_peak_beyond_one_and_a_half_of_its_deflection() {
+        let plateau = |loads: &[f64]| Capacity::of(&path(loads)).unwrap().plateau;
+        assert!(plateau(&[0.0, 50.0, 100.0, 99.0, 96.0]));
+        assert!(!plateau(&[0.0, 50.0, 100.0, 99.0]), "not far enough");
+        assert!(!plateau(&[0.0, 50.0, 100.0, 94.0, 99.0]), "fell between");
+        assert!(!plateau(&[0.0, 50.0, 100.0, 99.0, 101.0]), "rises again");
     }
 
     #[test]

@@ -27,6 +27,7 @@ impl FixedCrack {
         }
         let e = strain_into(&state.axes, strain);
         let young = self.p.young_mpa;
+        let derive = ctx.operator == Operator::Tangent;
         let mut local = Vector6::zeros();
         let mut d = Matrix6::zeros();
         let mut retention = Retention::default();
@@ -64,7 +65,7 @@ impl FixedCrack {
             local[i] = secant * e[i];
             if wants_secant(ctx) {
                 d[(i, i)] = secant.max(OPERATOR_FLOOR * young);
-            } else {
+            } else if derive {
                 d[(i, i)] = secant;
                 d[(i, of)] += slope * e[i];
                 if e[i] < 0.0 {
@@ -81,13 +82,14 @@ impl FixedCrack {
             retention.tension[i] = factor(bridged, bridged_slope, i);
             retention.compression[i] = factor(whole, whole_slope, pressed);
         }
-        let normal = std::array::from_fn(|i| (local[i], d.row(i).transpose()));
-        let shear = self.shear(state, (&e, ctx), &retention, &normal);
+        let shear = self.shear(state, (&e, ctx), &retention, (&local, &d));
         for (k, (i, j)) in SHEAR_PAIRS.into_iter().enumerate() {
             let row = 3 + k;
             local[row] = shear.stress[k];
             if wants_secant(ctx) {
                 d[(row, row)] = shear.shares[k] * self.shear_modulus;
+            }
+            if !derive {
                 continue;
             }
             d.set_row(row, &shear.tangent[k].transpose());
@@ -147,10 +149,53 @@ impl State {
     /// Turns the axes in the plane of the first crack into the principal ones of the strain there, the larger first.
     fn turn(&mut self, strain: &Vector6<f64>) {
         let e = strain_into(&self.axes, strain);
-        let (sin, cos) = (0.5 * e[4].atan2(e[1] - e[2])).sin_cos();
+        let (sin, cos) = half_angle(e[1] - e[2], e[4]);
         let s = self.axes.column(1) * cos + self.axes.column(2) * sin;
         let t = self.axes.column(2) * cos - self.axes.column(1) * sin;
         self.axes.set_column(1, &s);
         self.axes.set_column(2, &t);
+    }
+}
+
+/// Sine and cosine of half the angle of the direction (x, y), from -pi/2 to pi/2.
+fn half_angle(x: f64, y: f64) -> (f64, f64) {
+    let r = (x * x + y * y).sqrt();
+    if r == 0.0 {
+        return (0.0, 1.0);
+    }
+    // The larger of the two without cancellation, the other from sin t cos t = y/(2 r).
+    let larger = (0.5 * (1.0 + x.abs() / r)).sqrt();
+    let other = 0.5 * y.abs() / (r * larger);
+    let (sin, cos) = if x < 0.0 {
+        (larger, other)
+    } else {
+        (other, larger)
+    };
+    (sin.copysign(y), cos)
+}
+
+#[cfg(test)]
+mod tests {
+    //! Protects the axes in the plane of a crack: the half angle is that of trigonometry all around.
+    use super::half_angle;
+
+    #[test]
+    fn the_half_angle_is_that_of_the_arc_tangent() {
+        let mut directions: Vec<(f64, f64)> = (0..360)
+            .map(|i| f64::from(i).to_radians().sin_cos())
+            .collect();
+        directions.extend([
+            (1e-140, -3e-141),
+            (-2e-9, 1e-15),
+            (-1.0, 0.0),
+            (-1.0, -0.0),
+            (0.0, 0.0),
+        ]);
+        for (x, y) in directions {
+            let (sin, cos) = half_angle(x, y);
+            let expected = (0.5 * y.atan2(x)).sin_cos();
+            let near = (sin - expected.0).abs() < 1e-15 && (cos - expected.1).abs() < 1e-15;
+            assert!(near, "{x} {y}: {sin} {cos}, not {expected:?}");
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Shear in the axes of the cracks: retention, slip of the faces and their strength.
 
-use fe_core::material::PointContext;
-use nalgebra::Vector6;
+use fe_core::material::{Operator, PointContext};
+use nalgebra::{Matrix6, Vector6};
 
 use super::shear_transfer::Interlock;
 use super::{FixedCrack, State};
@@ -40,15 +40,17 @@ pub(super) struct Shear {
 }
 
 impl FixedCrack {
-    /// Shear at local strains `e`, `normal` being the stresses (MPa) on the axes and their derivatives; updates the shares.
+    /// Shear at local strains `e`, given the stresses (MPa) on the axes and, for a tangent, their derivatives; updates the
+    /// shares. Derivatives are those of the consistent tangent; without it they are left at zero.
     pub(super) fn shear(
         &self,
         state: &mut State,
         (e, ctx): (&Vector6<f64>, &PointContext),
         retention: &Retention,
-        normal: &[(f64, Vector6<f64>); 3],
+        (local, normal): (&Vector6<f64>, &Matrix6<f64>),
     ) -> Shear {
         let mut out = Shear::default();
+        let derive = ctx.operator == Operator::Tangent;
         let elastic = |k: usize| self.shear_modulus * e[3 + k];
         let crushed = retention.compression.into_iter().reduce(least);
         let crushed = crushed.unwrap_or_default();
@@ -69,20 +71,22 @@ impl FixedCrack {
             let share = self.share(bridged, slips, state.shares[kept]);
             let square: f64 = pairs.iter().map(|&k| elastic(k).powi(2)).sum();
             let strain = square.sqrt();
-            let strength = interlock.map(|lock| lock.strength(-normal[open].0));
+            let strength = interlock.map(|lock| lock.strength(-local[open]));
             let strength = strength.filter(|v| v.value < share.value * strain);
             let least_share = self.p.shear_floor.min(share.value);
             let mut carried = share.value;
             // Derivatives of the carried share.
             let mut slopes = Vector6::zeros();
-            slopes[share.axis] = share.slope;
+            if derive {
+                slopes[share.axis] = share.slope;
+            }
             if let Some(v) = strength {
                 let rate = ctx.relaxation;
                 let limit = (v.value / strain).max(least_share);
                 carried -= rate * (carried - limit);
                 slopes *= 1.0 - rate;
-                if limit > least_share {
-                    slopes -= normal[open].1 * (rate * v.by_pressure / strain);
+                if derive && limit > least_share {
+                    slopes -= normal.row(open).transpose() * (rate * v.by_pressure / strain);
                     slopes[open] += rate * v.by_opening * opening / strain;
                     for &l in pairs {
                         slopes[3 + l] -= rate * limit * elastic(l) * self.shear_modulus / square;
@@ -93,8 +97,10 @@ impl FixedCrack {
             for &k in pairs {
                 out.shares[k] = carried;
                 out.stress[k] = carried * elastic(k);
-                out.tangent[k] = slopes * elastic(k);
-                out.tangent[k][3 + k] += carried * self.shear_modulus;
+                if derive {
+                    out.tangent[k] = slopes * elastic(k);
+                    out.tangent[k][3 + k] += carried * self.shear_modulus;
+                }
             }
         }
         out

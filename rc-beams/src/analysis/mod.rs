@@ -18,9 +18,6 @@ pub use march::analyse;
 use crate::build::{Beam, BuildError, ModelSettings};
 use crate::spec::{Specimen, Staged};
 
-/// A path is followed to this multiple of the deflection at its largest load.
-pub const FOLLOW: f64 = 1.5;
-
 /// How the load stage is stepped.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stepping {

@@ -2,12 +2,12 @@
 
 use std::io;
 
-use fe_solver::capacity::{CAPACITY_FALL, PathPoint};
+use fe_solver::capacity::{CAPACITY_FALL, Capacity, DROP_FALL, PLATEAU_REACH, PathPoint};
 use fe_solver::journal::Entry;
 use fe_solver::recorder::{Continue, IterationRecord, Recorder, StepView};
 
 use super::march::Until;
-use super::{FOLLOW, Observer, Reading, Snapshot};
+use super::{Observer, Reading, Snapshot};
 use crate::build::Beam;
 
 /// Reactions (N, half width) and deflection (mm) under self weight: the zero of all readings.
@@ -168,9 +168,10 @@ impl Recorder for LoadRecorder<'_> {
                 "the load fell by {fall:.0} % from its peak"
             )));
         }
-        if now.deflection > FOLLOW * best.deflection && now.load < best.load {
+        if Capacity::of(&self.path).is_some_and(|capacity| capacity.plateau) {
             return Ok(Continue::Stop(format!(
-                "the deflection reached {FOLLOW} times that at the peak"
+                "the load stayed within {:.0} % of its peak up to {PLATEAU_REACH} times the deflection there",
+                100.0 * DROP_FALL
             )));
         }
         Ok(Continue::Yes)

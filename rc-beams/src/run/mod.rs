@@ -265,9 +265,9 @@ fn diagnosis(
     match drop {
         Some(sheets) if !watch.sheet_layout().zones.is_empty() => {
             let states = (peak, last);
-            Diagnosis::strengthened(layout, states, capacity.post_peak_drop, &sheets, ratio)
+            Diagnosis::strengthened(layout, states, capacity, &sheets, ratio)
         }
-        _ => Diagnosis::of(layout, peak, last, capacity.post_peak_drop),
+        _ => Diagnosis::of(layout, peak, last, capacity),
     }
 }
 

@@ -16,14 +16,15 @@
 //!
 //! | load falls | yield | softened web | diagonal share | growth of crushing | mode |
 //! |---|---|---|---|---|---|
-//! | below 5 % | | | | | none |
+//! | below 5 %, a plateau | yes | below 10 % | at most 0.4 | | flexure |
+//! | below 5 % | | otherwise | | | none |
 //! | | yes | below 10 % | at most 0.4 | | flexure |
 //! | | no | at least 10 % | | | shear (web crushing) |
 //! | | no | below 10 % | at least 0.6 | | shear (diagonal tension) |
 //! | | no | below 10 % | at most 0.4 | at least 0.1 % | concrete crushing |
 //! | | | otherwise | | | undecided |
 //!
-//! The thresholds are assumed: they separate clear cases and leave the others undecided.
+//! A plateau reaches 1.5 times the deflection at the peak. The thresholds are assumed: they separate clear cases and leave the others undecided.
 //!
 //! Where the span that fails carries sheets, the rules of [`strengthened`] follow.
 
@@ -31,7 +32,7 @@ pub mod strengthened;
 
 use std::fmt;
 
-use fe_solver::capacity::DROP_FALL;
+use fe_solver::capacity::{Capacity, DROP_FALL};
 use serde::{Serialize, Serializer};
 
 use super::evidence::{BarReach, Layout, Snapshot};
@@ -107,20 +108,19 @@ pub struct Diagnosis {
 }
 
 impl Diagnosis {
-    /// Judges a beam by its states at the peak and at the end of the drop after it, over which the load
-    /// falls by the share `drop`.
-    pub fn of(layout: &Layout, peak: &Snapshot, end: &Snapshot, drop: f64) -> Self {
+    /// Judges a beam by its states at the peak and at the end of the drop after it.
+    pub fn of(layout: &Layout, peak: &Snapshot, end: &Snapshot, capacity: &Capacity) -> Self {
         let measures = Measures::of(layout, peak, end);
-        let mode = if drop < DROP_FALL {
-            FailureMode::None
-        } else {
-            measures.mode()
+        let mode = match measures.mode() {
+            found if capacity.post_peak_drop >= DROP_FALL => found,
+            FailureMode::Flexure if capacity.plateau => FailureMode::Flexure,
+            _ => FailureMode::None,
         };
         Self {
             mode,
             mode_evidence: format!(
                 "load falls by {:.1} %; {measures}; {} of {} stirrups yield",
-                100.0 * drop,
+                100.0 * capacity.post_peak_drop,
                 end.stirrups_yielded,
                 layout.stirrups
             ),

@@ -53,17 +53,36 @@ pub(in crate::results) fn open(state: &mut Snapshot, i: usize, degrees: f64) {
     state.concrete[i].crack_normal = [cos, sin, 0.0];
 }
 
+/// A load that falls by a share, at once.
+pub(in crate::results) const fn falls(share: f64) -> Capacity {
+    Capacity {
+        peak: 0,
+        fell: false,
+        first_drop: None,
+        post_peak_drop: share,
+        vertical_drop: false,
+        plateau: false,
+    }
+}
+
 fn mode(peak: &Snapshot, end: &Snapshot) -> FailureMode {
-    Diagnosis::of(&layout(), peak, end, 0.3).mode
+    Diagnosis::of(&layout(), peak, end, &falls(0.3)).mode
 }
 
 #[test]
-fn a_load_that_does_not_fall_is_no_failure_even_with_yield() {
+fn a_load_that_does_not_fall_is_flexure_if_bars_yield_along_a_plateau_and_else_no_failure() {
     let mut yielding = peak();
     yielding.bars[1].utilisation = 1.02;
-    let diagnosis = Diagnosis::of(&layout(), &yielding, &yielding, 0.01);
+    let diagnosis = Diagnosis::of(&layout(), &yielding, &yielding, &falls(0.01));
     assert_eq!(diagnosis.mode, FailureMode::None);
     assert!(diagnosis.mode_evidence.contains("1.02 fy"));
+    let plateau = Capacity {
+        plateau: true,
+        ..falls(0.01)
+    };
+    let of = |state: &Snapshot| Diagnosis::of(&layout(), state, state, &plateau).mode;
+    assert_eq!(of(&yielding), FailureMode::Flexure);
+    assert_eq!(of(&peak()), FailureMode::None);
 }
 
 #[test]
@@ -75,7 +94,7 @@ fn diagonal_cracks_that_open_in_a_shear_span_are_diagonal_tension() {
     // A crack along the bars and a closing one do not count.
     open(&mut end, 26, 88.0);
     end.concrete[3].crack_strain = 0.0;
-    let diagnosis = Diagnosis::of(&layout(), &before, &end, 0.3);
+    let diagnosis = Diagnosis::of(&layout(), &before, &end, &falls(0.3));
     assert_eq!(diagnosis.mode, FailureMode::DiagonalTension);
     assert_eq!(
         diagnosis.mode_evidence,

@@ -16,7 +16,7 @@
 //!
 //! | | evidence | mode |
 //! |---|---|---|
-//! | 1 | load falls by less than 5 % | none |
+//! | 1 | load falls by less than 5 % | the same as for bare beams: flexure or none |
 //! | 2 | utilisation at least 1 | sheet rupture |
 //! | 3 | loss at least 40 %, debonded at least 35 %, no bar yields, softened web below 10 %, ratio not at most 1.08 | debonding |
 //! | 4 | loss below 40 % or debonded below 35 %; the rule for flexure of bare beams | flexure |
@@ -32,7 +32,7 @@
 
 use std::fmt;
 
-use fe_solver::capacity::DROP_FALL;
+use fe_solver::capacity::{Capacity, DROP_FALL};
 
 use super::{CRUSHING_GROWTH, DIAGONAL_MINOR, Diagnosis, FailureMode, Measures, SOFTENED_WEB};
 use crate::results::evidence::{Layout, Snapshot};
@@ -50,13 +50,12 @@ pub const BOND_GOVERNS: f64 = 1.15;
 pub const CONCRETE_GOVERNS: f64 = 1.08;
 
 impl Diagnosis {
-    /// Judges a beam with sheets by its states at the peak and at the end of the drop after it, over which the
-    /// load falls by the share `drop`, and by what its sheets lose. `ratio` is the peak with perfect bond over
-    /// that of the beam, where it is known.
+    /// Judges a beam with sheets by its states at the peak and at the end of the drop after it, and by what its sheets
+    /// lose. `ratio` is the peak with perfect bond over that of the beam, where it is known.
     pub fn strengthened(
         layout: &Layout,
         (peak, end): (&Snapshot, &Snapshot),
-        drop: f64,
+        capacity: &Capacity,
         sheets: &SheetDrop,
         ratio: Option<f64>,
     ) -> Self {
@@ -67,7 +66,7 @@ impl Diagnosis {
         let Some((span, debonded)) = span.and_then(|s| Some((s, s.debonded?))) else {
             return Self {
                 counterfactual_ratio: ratio,
-                ..Self::of(layout, peak, end, drop)
+                ..Self::of(layout, peak, end, capacity)
             };
         };
         let bond = Bond {
@@ -78,10 +77,10 @@ impl Diagnosis {
             ratio,
         };
         Self {
-            mode: mode(&measures, &bond, drop),
+            mode: mode(&measures, &bond, capacity),
             mode_evidence: format!(
                 "load falls by {:.1} %; {bond}; {measures}; {} of {} stirrups yield",
-                100.0 * drop,
+                100.0 * capacity.post_peak_drop,
                 end.stirrups_yielded,
                 layout.stirrups
             ),
@@ -103,7 +102,7 @@ struct Bond<'a> {
 }
 
 /// The table of the module.
-fn mode(measures: &Measures, bond: &Bond<'_>, drop: f64) -> FailureMode {
+fn mode(measures: &Measures, bond: &Bond<'_>, capacity: &Capacity) -> FailureMode {
     let loss = bond.span.loss();
     let debonds = loss >= DEBONDING_LOSS && bond.debonded[1] >= DEBONDING_SHARE;
     let softened = measures.softened_web >= SOFTENED_WEB;
@@ -111,13 +110,18 @@ fn mode(measures: &Measures, bond: &Bond<'_>, drop: f64) -> FailureMode {
     let bond_governs = bond.ratio.is_some_and(|r| r >= BOND_GOVERNS);
     let concrete_governs = bond.ratio.is_some_and(|r| r <= CONCRETE_GOVERNS);
     let stays = loss <= BONDED_LOSS && !measures.yielded && !bond_governs;
-    if drop < DROP_FALL {
-        FailureMode::None
+    let bends = measures.mode() == FailureMode::Flexure;
+    if capacity.post_peak_drop < DROP_FALL {
+        if bends && capacity.plateau {
+            FailureMode::Flexure
+        } else {
+            FailureMode::None
+        }
     } else if bond.sheets.utilisation >= 1.0 {
         FailureMode::SheetRupture
     } else if debonds && !measures.yielded && !softened && !concrete_governs {
         FailureMode::Debonding
-    } else if !debonds && measures.yielded && !softened && minor {
+    } else if !debonds && bends {
         FailureMode::Flexure
     } else if !bond.sheets.complete {
         FailureMode::Undecided

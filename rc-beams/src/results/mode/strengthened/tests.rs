@@ -1,7 +1,7 @@
 //! Protects the table of the module: a history per row, on both sides of every threshold.
 //! Source of the histories: loss of sheet force, debonded share and ratio of computed beams of series A.
 use super::*;
-use crate::results::mode::tests::{layout, open, peak};
+use crate::results::mode::tests::{falls, layout, open, peak};
 use crate::results::sheets::ZoneDrop;
 
 /// A drop in the right shear span, where a diagonal crack opens.
@@ -37,7 +37,7 @@ fn states() -> (Snapshot, Snapshot) {
 }
 
 fn judge(states: &(Snapshot, Snapshot), drop: &SheetDrop, ratio: Option<f64>) -> FailureMode {
-    Diagnosis::strengthened(&layout(), (&states.0, &states.1), 0.2, drop, ratio).mode
+    Diagnosis::strengthened(&layout(), (&states.0, &states.1), &falls(0.2), drop, ratio).mode
 }
 
 #[test]
@@ -131,8 +131,26 @@ fn a_drop_that_is_not_complete_decides_debonding_alone() {
     assert_eq!(judge(&states(), &short, None), FailureMode::Debonding);
     let (before, after) = states();
     let states = (&before, &after);
-    let none = Diagnosis::strengthened(&layout(), states, 0.049, &short, None);
+    let none = Diagnosis::strengthened(&layout(), states, &falls(0.049), &short, None);
     assert_eq!(none.mode, FailureMode::None);
+}
+
+#[test]
+fn bars_that_yield_along_a_plateau_are_flexure() {
+    let mut state = peak();
+    state.bars[1].utilisation = 1.02;
+    let plateau = Capacity {
+        plateau: true,
+        ..falls(0.01)
+    };
+    for (capacity, expected) in [
+        (plateau, FailureMode::Flexure),
+        (falls(0.01), FailureMode::None),
+    ] {
+        let states = (&state, &state);
+        let found = Diagnosis::strengthened(&layout(), states, &capacity, &drop(0.0, 0.0), None);
+        assert_eq!(found.mode, expected);
+    }
 }
 
 #[test]
@@ -151,7 +169,13 @@ fn a_span_without_sheets_fails_like_a_bare_beam() {
 fn the_evidence_is_one_line_with_numbers() {
     let (before, after) = states();
     let states = (&before, &after);
-    let diagnosis = Diagnosis::strengthened(&layout(), states, 0.21, &drop(0.45, 0.48), Some(1.27));
+    let diagnosis = Diagnosis::strengthened(
+        &layout(),
+        states,
+        &falls(0.21),
+        &drop(0.45, 0.48),
+        Some(1.27),
+    );
     assert_eq!(diagnosis.counterfactual_ratio, Some(1.27));
     assert_eq!(
         diagnosis.mode_evidence,
