@@ -31,7 +31,7 @@ impl CompressionSoftening {
             return (1.0, slopes);
         }
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        let largest = (kt[j] * kt[j] + kt[k] * kt[k]).sqrt();
+        let largest = kt[j].hypot(kt[k]);
         let excess = unit * largest - START;
         if excess <= 0.0 {
             return (1.0, slopes);

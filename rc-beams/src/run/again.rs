@@ -12,7 +12,7 @@ use crate::analysis::{Observer, Reading, Staging, Stepping, analyse};
 use crate::build::{Beam, ModelSettings};
 use crate::options::{MeshSize, RunOptions};
 use crate::results::interrupt::Interrupt;
-use crate::results::numerical_error::NumericalError;
+use crate::results::numerical_error::{NumericalError, REFINEMENT};
 use crate::spec::Specimen;
 
 /// Watches for interruptions only.
@@ -46,7 +46,7 @@ pub(super) fn numerical_error(
 ) -> Result<Option<NumericalError>, RunError> {
     let halved = peak_kn_of(specimen, settings, &stepping.halved(), options, interrupt)?;
     let MeshSize { nx, ny, nz } = settings.mesh;
-    let [nx, ny] = [nx, ny].map(|n| (3 * n).div_ceil(2));
+    let [nx, ny] = [nx, ny].map(|n| (REFINEMENT * n as f64).ceil() as usize);
     let mesh = MeshSize { nx, ny, nz };
     let finer = ModelSettings { mesh, ..*settings };
     let peak = peak_kn_of(specimen, &finer, stepping, options, interrupt)?;

@@ -62,6 +62,12 @@ const fn case(
 /// The default, with its numerical error.
 pub const DEFAULT: Case = case("default", "as it is", "--band", &ALL);
 
+/// Twice the elements along and up: what the error bars are judged by.
+pub const TWICE: Case = Case {
+    with_sheets: Some("--mesh 120x12"),
+    ..case("mesh-120x8", "twice the elements", "--mesh 120x8", &ALL)
+};
+
 /// Numerical settings.
 pub const NUMERICS: [Case; 10] = [
     Case {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::cases::{Case, DEFAULT, KNOWN};
+use super::cases::{Case, DEFAULT, KNOWN, TWICE};
 use super::outcome::Outcome;
 
 /// Results by case and beam.
@@ -41,6 +41,8 @@ pub fn beams(outcomes: &Outcomes) -> String {
         "trust",
         "half the steps, %",
         "finer mesh, %",
+        "error bar, %",
+        "twice the elements, %",
         "factorisations",
         "evaluations",
         "tension over strength",
@@ -61,12 +63,53 @@ pub fn beams(outcomes: &Outcomes) -> String {
             o.text(&["trust"]).unwrap_or_default().to_owned(),
             change("half_steps"),
             change("finer_mesh"),
+            fixed(
+                o.number(&["numerical_error", "error_bar"])
+                    .map(|e| 100.0 * e),
+                0,
+            ),
+            percent(change_by(outcomes, TWICE.name, beam)),
             fixed(Some(o.cost[0]), 2),
             fixed(Some(o.cost[1]), 1),
             fixed(o.number(&["tension_over_strength"]), 1),
         ]);
     }
     text
+}
+
+/// Relative change of the peak of a beam by a case.
+fn change_by(outcomes: &Outcomes, case: &'static str, beam: &'static str) -> Option<f64> {
+    let peak = |case| outcomes.get(&(case, beam)).and_then(Outcome::peak);
+    Some(peak(case)? / peak(DEFAULT.name)? - 1.0)
+}
+
+/// How many error bars reach the peak with half the steps, and with twice the elements.
+pub fn coverage(outcomes: &Outcomes) -> String {
+    let found = DEFAULT.beams.iter().filter_map(|beam| {
+        let o = outcomes.get(&(DEFAULT.name, *beam))?;
+        let bar = o.number(&["numerical_error", "error_bar"])?;
+        let halved = o.number(&["numerical_error", "half_steps", "change"])?;
+        let twice = change_by(outcomes, TWICE.name, beam)?;
+        Some((beam, [halved, twice].map(|change| change.abs() <= bar)))
+    });
+    let found: Vec<_> = found.collect();
+    let covered = |i: usize| found.iter().filter(|(_, reached)| reached[i]).count();
+    let missed = found.iter().filter(|(_, reached)| reached.contains(&false));
+    let missed: Vec<&str> = missed.map(|(beam, _)| **beam).collect();
+    format!(
+        "Of {} error bars, {} reach the peak with half the steps and {} that with twice the elements along and up \
+         (`{}`, with sheets `{}`); not: {}.\n",
+        found.len(),
+        covered(0),
+        covered(1),
+        TWICE.options,
+        TWICE.with_sheets.unwrap_or_default(),
+        if missed.is_empty() {
+            "none".to_owned()
+        } else {
+            missed.join(", ")
+        }
+    )
 }
 
 /// Mean and worst error, mean ratio and coefficient of variation of the beams whose tests are known.
@@ -112,10 +155,7 @@ pub fn changes(outcomes: &Outcomes, cases: &[Case]) -> String {
             |other| format!("`{}`, with sheets `{other}`", case.options),
         );
         let cells = beams.iter().map(|beam| {
-            let peak = |case| outcomes.get(&(case, *beam)).and_then(Outcome::peak);
-            let change = peak(case.name)
-                .zip(peak(DEFAULT.name))
-                .map(|(a, b)| a / b - 1.0);
+            let change = change_by(outcomes, case.name, beam);
             let low = outcomes
                 .get(&(case.name, *beam))
                 .and_then(|o| o.text(&["trust"]));

@@ -10,10 +10,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use fe_tests::accuracy::cases::{Case, DEFAULT, NUMERICS, PARAMETERS};
+use fe_tests::accuracy::cases::{Case, DEFAULT, NUMERICS, PARAMETERS, TWICE};
 use fe_tests::accuracy::cost;
 use fe_tests::accuracy::outcome::Outcome;
-use fe_tests::accuracy::tables::{Outcomes, beams, changes, insert, sensitivities, statistics};
+use fe_tests::accuracy::tables::{
+    Outcomes, beams, changes, coverage, insert, sensitivities, statistics,
+};
 use fe_tests::provenance::commit;
 
 const DOCUMENT: &str = "docs/accuracy.md";
@@ -27,7 +29,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = arguments
         .next()
         .unwrap_or_else(|| Path::new("results").join("accuracy"));
-    let runs: Vec<(&Case, &'static str)> = std::iter::once(&DEFAULT)
+    let runs: Vec<(&Case, &'static str)> = [&DEFAULT, &TWICE]
+        .into_iter()
         .chain(&NUMERICS)
         .chain(&PARAMETERS)
         .flat_map(|case| case.beams.iter().map(move |beam| (case, *beam)))
@@ -51,6 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("source", source),
         ("beams", beams(&outcomes)),
         ("statistics", statistics(&outcomes)),
+        ("coverage", coverage(&outcomes)),
     ];
     if any(&NUMERICS) {
         tables.push(("numerics", changes(&outcomes, &NUMERICS)));
