@@ -52,7 +52,8 @@ pub struct RunOptions {
     #[arg(long)]
     pub counterfactual: bool,
 
-    /// Run every beam twice more, with steps half as long and with a finer mesh, and print by how much the peak changes
+    /// Run every beam twice more, with steps half as long and with a finer mesh, and print an error bar and by how much
+    /// the peak changes
     #[arg(long)]
     pub band: bool,
 

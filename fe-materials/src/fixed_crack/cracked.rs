@@ -6,7 +6,7 @@ use fe_core::voigt::{SHEAR_PAIRS, strain_into, strain_transform, stress_out_of};
 use nalgebra::{Matrix6, Vector6};
 
 use super::shear::{Factor, Retention};
-use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, State, wants_secant};
+use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, State, wants_secant, wants_tangent};
 
 impl FixedCrack {
     /// Stress of a cracked point; updates the histories. `onset` tells that the first crack opens in this very
@@ -27,7 +27,7 @@ impl FixedCrack {
         }
         let e = strain_into(&state.axes, strain);
         let young = self.p.young_mpa;
-        let derive = ctx.operator == Operator::Tangent;
+        let derive = wants_tangent(ctx);
         let mut local = Vector6::zeros();
         let mut d = Matrix6::zeros();
         let mut retention = Retention::default();

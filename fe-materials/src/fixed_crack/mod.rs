@@ -460,3 +460,8 @@ impl Material<Solid> for FixedCrack {
 fn wants_secant(ctx: &PointContext) -> bool {
     ctx.operator == Operator::Secant
 }
+
+/// Whether the operator is the consistent tangent.
+fn wants_tangent(ctx: &PointContext) -> bool {
+    ctx.operator == Operator::Tangent
+}

@@ -1,10 +1,10 @@
 //! Shear in the axes of the cracks: retention, slip of the faces and their strength.
 
-use fe_core::material::{Operator, PointContext};
+use fe_core::material::PointContext;
 use nalgebra::{Matrix6, Vector6};
 
 use super::shear_transfer::Interlock;
-use super::{FixedCrack, State};
+use super::{FixedCrack, State, wants_tangent};
 
 /// Shear components (Voigt order xy, yz, xz) that act across the same cracks, and the axes of these: the shear across
 /// the first crack, in whose plane the other axes may still turn, and the shear in its plane.
@@ -50,7 +50,7 @@ impl FixedCrack {
         (local, normal): (&Vector6<f64>, &Matrix6<f64>),
     ) -> Shear {
         let mut out = Shear::default();
-        let derive = ctx.operator == Operator::Tangent;
+        let derive = wants_tangent(ctx);
         let elastic = |k: usize| self.shear_modulus * e[3 + k];
         let crushed = retention.compression.into_iter().reduce(least);
         let crushed = crushed.unwrap_or_default();

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use fe_solver::capacity::{CAPACITY_FALL, Capacity, DROP_FALL, PLATEAU_REACH, PathPoint};
+use fe_solver::capacity::{Capacity, DROP_FALL, PLATEAU_REACH, PathPoint};
 use fe_solver::journal::Entry;
 use fe_solver::recorder::{Continue, IterationRecord, Recorder, StepView};
 
@@ -76,9 +76,6 @@ pub(super) struct LoadRecorder<'a> {
     pub to_the_end: bool,
     pub until: Until,
     pub path: Vec<PathPoint>,
-    /// Index of the largest load so far, until the load has fallen from it.
-    best: usize,
-    fell: bool,
     pub peak: Option<Snapshot>,
     pub fallen: Option<Snapshot>,
 }
@@ -94,8 +91,6 @@ impl<'a> LoadRecorder<'a> {
             to_the_end: false,
             until: Until::Failure,
             path: Vec::new(),
-            best: 0,
-            fell: false,
             peak: None,
             fallen: None,
         }
@@ -135,13 +130,14 @@ impl Recorder for LoadRecorder<'_> {
             kinetic: view.kinetic,
             viscous: view.viscous,
         });
-        let (best, now) = (self.path[self.best], self.path[self.path.len() - 1]);
-        if !self.fell && (self.path.len() == 1 || now.load > best.load) {
-            self.best = self.path.len() - 1;
+        let Some(capacity) = Capacity::of(&self.path) else {
+            return Ok(Continue::Yes);
+        };
+        let now = self.path[self.path.len() - 1];
+        if capacity.peak == self.path.len() - 1 {
             self.peak = Some(Snapshot::of(view.stage, now.deflection));
         }
-        if !self.fell && now.load <= (1.0 - CAPACITY_FALL) * best.load {
-            self.fell = true;
+        if capacity.fell && self.fallen.is_none() {
             self.fallen = Some(Snapshot::of(view.stage, now.deflection));
         }
         let step = self.steps_before + view.step;
@@ -162,13 +158,13 @@ impl Recorder for LoadRecorder<'_> {
         if self.to_the_end {
             return Ok(Continue::Yes);
         }
-        if self.fell {
-            let fall = 100.0 * (1.0 - now.load / best.load);
+        if capacity.fell {
+            let fall = 100.0 * (1.0 - now.load / self.path[capacity.peak].load);
             return Ok(Continue::Stop(format!(
                 "the load fell by {fall:.0} % from its peak"
             )));
         }
-        if Capacity::of(&self.path).is_some_and(|capacity| capacity.plateau) {
+        if capacity.plateau {
             return Ok(Continue::Stop(format!(
                 "the load stayed within {:.0} % of its peak up to {PLATEAU_REACH} times the deflection there",
                 100.0 * DROP_FALL

@@ -25,6 +25,15 @@ impl Case {
         };
         options.split_whitespace().collect()
     }
+
+    /// Its options, for a reader.
+    pub fn written_options(&self) -> String {
+        let options = format!("`{}`", self.options);
+        match self.with_sheets {
+            Some(other) => format!("{options}, with sheets `{other}`"),
+            None => options,
+        }
+    }
 }
 
 const ALL: [&str; 21] = [

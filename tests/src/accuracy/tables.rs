@@ -98,12 +98,11 @@ pub fn coverage(outcomes: &Outcomes) -> String {
     let missed: Vec<&str> = missed.map(|(beam, _)| **beam).collect();
     format!(
         "Of {} error bars, {} reach the peak with half the steps and {} that with twice the elements along and up \
-         (`{}`, with sheets `{}`); not: {}.\n",
+         ({}); not: {}.\n",
         found.len(),
         covered(0),
         covered(1),
-        TWICE.options,
-        TWICE.with_sheets.unwrap_or_default(),
+        TWICE.written_options(),
         if missed.is_empty() {
             "none".to_owned()
         } else {
@@ -150,10 +149,6 @@ pub fn changes(outcomes: &Outcomes, cases: &[Case]) -> String {
     }
     let mut text = header(&[&["", "options"], beams.as_slice()].concat());
     for case in cases {
-        let options = case.with_sheets.map_or_else(
-            || format!("`{}`", case.options),
-            |other| format!("`{}`, with sheets `{other}`", case.options),
-        );
         let cells = beams.iter().map(|beam| {
             let change = change_by(outcomes, case.name, beam);
             let low = outcomes
@@ -166,7 +161,9 @@ pub fn changes(outcomes: &Outcomes, cases: &[Case]) -> String {
             };
             percent(change) + note
         });
-        text += &row([case.what.to_owned(), options].into_iter().chain(cells));
+        text += &row([case.what.to_owned(), case.written_options()]
+            .into_iter()
+            .chain(cells));
     }
     text
 }

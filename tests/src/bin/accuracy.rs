@@ -54,8 +54,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("source", source),
         ("beams", beams(&outcomes)),
         ("statistics", statistics(&outcomes)),
-        ("coverage", coverage(&outcomes)),
     ];
+    if any(&[TWICE]) {
+        tables.push(("coverage", coverage(&outcomes)));
+    }
     if any(&NUMERICS) {
         tables.push(("numerics", changes(&outcomes, &NUMERICS)));
         tables.push(("cost", cost::table(&outcomes)));

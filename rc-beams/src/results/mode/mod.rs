@@ -24,7 +24,8 @@
 //! | | no | below 10 % | at most 0.4 | at least 0.1 % | concrete crushing |
 //! | | | otherwise | | | undecided |
 //!
-//! A plateau reaches 1.5 times the deflection at the peak. The thresholds are assumed: they separate clear cases and leave the others undecided.
+//! A plateau reaches 1.5 times the deflection at the peak. The thresholds are assumed: they separate clear cases and
+//! leave the others undecided.
 //!
 //! Where the span that fails carries sheets, the rules of [`strengthened`] follow.
 
@@ -111,13 +112,9 @@ impl Diagnosis {
     /// Judges a beam by its states at the peak and at the end of the drop after it.
     pub fn of(layout: &Layout, peak: &Snapshot, end: &Snapshot, capacity: &Capacity) -> Self {
         let measures = Measures::of(layout, peak, end);
-        let mode = match measures.mode() {
-            found if capacity.post_peak_drop >= DROP_FALL => found,
-            FailureMode::Flexure if capacity.plateau => FailureMode::Flexure,
-            _ => FailureMode::None,
-        };
+        let held = measures.mode_without_drop(capacity);
         Self {
-            mode,
+            mode: held.unwrap_or_else(|| measures.mode()),
             mode_evidence: format!(
                 "load falls by {:.1} %; {measures}; {} of {} stirrups yield",
                 100.0 * capacity.post_peak_drop,
@@ -186,6 +183,14 @@ impl Measures {
             softened_web: web.iter().map(|w| share(w[0], w[1])).fold(0.0, f64::max),
             crushing_growth: share(crushing, volume),
         }
+    }
+
+    /// Mode where the load does not fall by [`DROP_FALL`]; none where it does.
+    fn mode_without_drop(&self, capacity: &Capacity) -> Option<FailureMode> {
+        (capacity.post_peak_drop < DROP_FALL).then(|| match self.mode() {
+            FailureMode::Flexure if capacity.plateau => FailureMode::Flexure,
+            _ => FailureMode::None,
+        })
     }
 
     fn mode(&self) -> FailureMode {

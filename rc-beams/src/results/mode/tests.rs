@@ -65,6 +65,12 @@ pub(in crate::results) const fn falls(share: f64) -> Capacity {
     }
 }
 
+/// A load that hardly falls, far beyond its peak.
+pub(in crate::results) const PLATEAU: Capacity = Capacity {
+    plateau: true,
+    ..falls(0.01)
+};
+
 fn mode(peak: &Snapshot, end: &Snapshot) -> FailureMode {
     Diagnosis::of(&layout(), peak, end, &falls(0.3)).mode
 }
@@ -76,11 +82,7 @@ fn a_load_that_does_not_fall_is_flexure_if_bars_yield_along_a_plateau_and_else_n
     let diagnosis = Diagnosis::of(&layout(), &yielding, &yielding, &falls(0.01));
     assert_eq!(diagnosis.mode, FailureMode::None);
     assert!(diagnosis.mode_evidence.contains("1.02 fy"));
-    let plateau = Capacity {
-        plateau: true,
-        ..falls(0.01)
-    };
-    let of = |state: &Snapshot| Diagnosis::of(&layout(), state, state, &plateau).mode;
+    let of = |state: &Snapshot| Diagnosis::of(&layout(), state, state, &PLATEAU).mode;
     assert_eq!(of(&yielding), FailureMode::Flexure);
     assert_eq!(of(&peak()), FailureMode::None);
 }

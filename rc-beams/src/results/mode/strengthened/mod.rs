@@ -32,7 +32,7 @@
 
 use std::fmt;
 
-use fe_solver::capacity::{Capacity, DROP_FALL};
+use fe_solver::capacity::Capacity;
 
 use super::{CRUSHING_GROWTH, DIAGONAL_MINOR, Diagnosis, FailureMode, Measures, SOFTENED_WEB};
 use crate::results::evidence::{Layout, Snapshot};
@@ -103,6 +103,9 @@ struct Bond<'a> {
 
 /// The table of the module.
 fn mode(measures: &Measures, bond: &Bond<'_>, capacity: &Capacity) -> FailureMode {
+    if let Some(held) = measures.mode_without_drop(capacity) {
+        return held;
+    }
     let loss = bond.span.loss();
     let debonds = loss >= DEBONDING_LOSS && bond.debonded[1] >= DEBONDING_SHARE;
     let softened = measures.softened_web >= SOFTENED_WEB;
@@ -111,13 +114,7 @@ fn mode(measures: &Measures, bond: &Bond<'_>, capacity: &Capacity) -> FailureMod
     let concrete_governs = bond.ratio.is_some_and(|r| r <= CONCRETE_GOVERNS);
     let stays = loss <= BONDED_LOSS && !measures.yielded && !bond_governs;
     let bends = measures.mode() == FailureMode::Flexure;
-    if capacity.post_peak_drop < DROP_FALL {
-        if bends && capacity.plateau {
-            FailureMode::Flexure
-        } else {
-            FailureMode::None
-        }
-    } else if bond.sheets.utilisation >= 1.0 {
+    if bond.sheets.utilisation >= 1.0 {
         FailureMode::SheetRupture
     } else if debonds && !measures.yielded && !softened && !concrete_governs {
         FailureMode::Debonding

@@ -1,7 +1,7 @@
 //! Protects the table of the module: a history per row, on both sides of every threshold.
 //! Source of the histories: loss of sheet force, debonded share and ratio of computed beams of series A.
 use super::*;
-use crate::results::mode::tests::{falls, layout, open, peak};
+use crate::results::mode::tests::{PLATEAU, falls, layout, open, peak};
 use crate::results::sheets::ZoneDrop;
 
 /// A drop in the right shear span, where a diagonal crack opens.
@@ -139,12 +139,8 @@ fn a_drop_that_is_not_complete_decides_debonding_alone() {
 fn bars_that_yield_along_a_plateau_are_flexure() {
     let mut state = peak();
     state.bars[1].utilisation = 1.02;
-    let plateau = Capacity {
-        plateau: true,
-        ..falls(0.01)
-    };
     for (capacity, expected) in [
-        (plateau, FailureMode::Flexure),
+        (PLATEAU, FailureMode::Flexure),
         (falls(0.01), FailureMode::None),
     ] {
         let states = (&state, &state);
