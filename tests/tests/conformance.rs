@@ -60,7 +60,7 @@ fn hexahedra() {
     }
 }
 
-/// Bars with and without dowel action, in a distorted host.
+/// Bars without dowel action, with it, and with dowels that slide, in a distorted host.
 #[test]
 fn embedded_bars() {
     let coords = hexahedron();
@@ -73,7 +73,8 @@ fn embedded_bars() {
     ];
     for law in laws {
         let dowel = Dowel::he_kwan(16.0, 38.0, 200e3, 50.0, [0.0, 0.0, 1.0]).unwrap();
-        for dowel in [None, Some(dowel)] {
+        let weak = dowel.bounded(0.2, 38.0, 460.0).unwrap();
+        for dowel in [None, Some(dowel), Some(weak)] {
             let bar = Bar {
                 name: "bar".into(),
                 polyline: vec![[-18.0, -15.0, -17.0], [3.0, 5.0, 1.0], [15.0, 4.0, 18.0]],

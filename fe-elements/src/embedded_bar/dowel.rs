@@ -2,24 +2,70 @@
 
 use fe_core::element::ElementError;
 
-/// Transverse stiffness of a bar against the shear strain of its host.
+/// Resistance of a bar against the shear strain of its host.
 ///
 /// A crack crossed by the bar opens a transverse slip delta = h gamma over the band width h; the bar, a
 /// beam on the elastic foundation of the surrounding concrete, resists it with V = E I beta^3 delta. Smeared
-/// over the band, V(gamma) = E I beta^3 h gamma acts along the bar: delta W = int V delta(gamma) ds, with
+/// over the band, V(gamma) = E I beta^3 h (gamma - gamma_p) acts along the bar: delta W = int V delta(gamma) ds, with
 /// gamma = t . (grad u + grad u^T) n the engineering shear strain between the axis t and the transverse
 /// direction n in the plane of the bar and the crack.
+///
+/// Where |V| would pass its strength V_u(sigma), which falls with the axial stress, the bar slides and gamma_p follows. A bar
+/// that yields along its axis has no strength left across it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dowel {
     /// V per unit of shear strain (N).
-    pub stiffness_n: f64,
+    stiffness_n: f64,
+    /// What V cannot pass, if anything.
+    strength: Option<Strength>,
     /// Normal of the plane in which the dowel acts; the transverse direction is `plane_normal` x t, and a
     /// bar along the normal has no dowel.
-    pub plane_normal: [f64; 3],
+    plane_normal: [f64; 3],
+}
+
+/// V_u = V_0 sqrt(1 - (sigma/fy)^2).
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Strength {
+    /// V_0 (N).
+    free_n: f64,
+    /// fy (MPa).
+    yield_mpa: f64,
+}
+
+impl Strength {
+    /// V_u (N) and its derivative with respect to the axial stress (mm2).
+    fn at(&self, axial_mpa: f64) -> (f64, f64) {
+        let share = axial_mpa / self.yield_mpa;
+        let left = 1.0 - share * share;
+        if left <= NOTHING_LEFT {
+            return (0.0, 0.0);
+        }
+        let root = left.sqrt();
+        (
+            self.free_n * root,
+            -self.free_n * share / (root * self.yield_mpa),
+        )
+    }
+}
+
+/// 1 - (sigma/fy)^2 from which a bar counts as yielding: the slope of V_u has no bound there.
+const NOTHING_LEFT: f64 = 1e-6;
+
+/// Answer of a dowel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Answer {
+    /// V (N).
+    pub(super) force: f64,
+    /// gamma_p (-).
+    pub(super) slid: f64,
+    /// dV/dgamma (N).
+    pub(super) stiffness: f64,
+    /// dV/dsigma (mm2).
+    pub(super) by_axial: f64,
 }
 
 impl Dowel {
-    /// Foundation stiffness of He and Kwan (2001): k = 127 c sqrt(fc)/phi^(2/3) (N/mm3) with c = 0.8,
+    /// A dowel without bound, from the foundation stiffness of He and Kwan (2001): k = 127 c sqrt(fc)/phi^(2/3) (N/mm3) with c = 0.8,
     /// beta = (k phi/(4 E I))^(1/4) (1/mm), stiffness = E I beta^3 h (N). The constants 127 and 0.8 are assumed:
     /// they are quoted here at second hand.
     ///
@@ -39,22 +85,153 @@ impl Dowel {
             ("young_mpa", young_mpa),
             ("band_width_mm", band_width_mm),
         ];
-        for (what, value) in inputs {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(ElementError::Input {
-                    what: format!("dowel {what}"),
-                    value,
-                    allowed: "(0, inf)".into(),
-                    remedy: "give a positive value".into(),
-                });
-            }
-        }
+        positive(&inputs)?;
         let inertia = std::f64::consts::PI * diameter_mm.powi(4) / 64.0;
         let foundation = 127.0 * 0.8 * fc_mpa.sqrt() / diameter_mm.powf(2.0 / 3.0);
         let beta = (foundation * diameter_mm / (4.0 * young_mpa * inertia)).powf(0.25);
         Ok(Self {
             stiffness_n: young_mpa * inertia * beta.powi(3) * band_width_mm,
             plane_normal,
+            strength: None,
         })
+    }
+
+    /// The same with the strength of CEB-FIP Model Code 1990, 3.10 (without eccentricity and partial factors), after Rasmussen (1963):
+    ///
+    /// V_u = V_0 sqrt(1 - (sigma/fy)^2), V_0 = 1.3 phi^2 sqrt(fc fy), no more than A fy/sqrt(3).
+    ///
+    /// It holds where the cover does not split.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Input`] for a value that is not positive.
+    pub fn bounded(
+        mut self,
+        diameter_mm: f64,
+        fc_mpa: f64,
+        yield_mpa: f64,
+    ) -> Result<Self, ElementError> {
+        positive(&[
+            ("diameter_mm", diameter_mm),
+            ("fc_mpa", fc_mpa),
+            ("yield_mpa", yield_mpa),
+        ])?;
+        let area = std::f64::consts::FRAC_PI_4 * diameter_mm * diameter_mm;
+        let concrete = 1.3 * diameter_mm * diameter_mm * (fc_mpa * yield_mpa).sqrt();
+        self.strength = Some(Strength {
+            free_n: concrete.min(area * yield_mpa / 3.0_f64.sqrt()),
+            yield_mpa,
+        });
+        Ok(self)
+    }
+
+    /// V per unit of shear strain (N) before the bar slides.
+    pub(super) const fn stiffness(&self) -> f64 {
+        self.stiffness_n
+    }
+
+    /// Normal of the plane in which the dowel acts.
+    pub(super) const fn plane_normal(&self) -> [f64; 3] {
+        self.plane_normal
+    }
+
+    /// Whether V has a bound, and the dowel a slid strain to keep.
+    pub(super) const fn is_bounded(&self) -> bool {
+        self.strength.is_some()
+    }
+
+    /// V at a shear strain, from the slid strain gamma_p kept and the axial stress (MPa) of the bar.
+    pub(super) fn at(&self, shear: f64, slid: f64, axial_mpa: f64) -> Answer {
+        let trial = self.stiffness_n * (shear - slid);
+        let elastic = Answer {
+            force: trial,
+            slid,
+            stiffness: self.stiffness_n,
+            by_axial: 0.0,
+        };
+        let Some(strength) = &self.strength else {
+            return elastic;
+        };
+        let (most, slope) = strength.at(axial_mpa);
+        if trial.abs() <= most {
+            return elastic;
+        }
+        let force = most.copysign(trial);
+        Answer {
+            force,
+            slid: shear - force / self.stiffness_n,
+            stiffness: 0.0,
+            by_axial: slope * trial.signum(),
+        }
+    }
+
+    /// What the dowel gives back when it unloads, per length (N).
+    pub(super) fn free_energy(&self, shear: f64, slid: f64) -> f64 {
+        0.5 * self.stiffness_n * (shear - slid).powi(2)
+    }
+}
+
+fn positive(inputs: &[(&str, f64)]) -> Result<(), ElementError> {
+    match inputs
+        .iter()
+        .find(|(_, value)| !(value.is_finite() && *value > 0.0))
+    {
+        None => Ok(()),
+        Some(&(what, value)) => Err(ElementError::Input {
+            what: format!("dowel {what}"),
+            value,
+            allowed: "(0, inf)".into(),
+            remedy: "give a positive value".into(),
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    /// phi 10, fc = 19.3, fy = 350 MPa: V_0 = 1.3 * 100 * sqrt(19.3 * 350) = 10 685 N.
+    fn bounded() -> Dowel {
+        let free = Dowel::he_kwan(10.0, 19.3, 200e3, 50.0, [0.0, 0.0, 1.0]).unwrap();
+        free.bounded(10.0, 19.3, 350.0).unwrap()
+    }
+
+    /// Stiff below the strength, at the strength above it, and stiff again on the way back, with the slid strain kept.
+    #[test]
+    fn a_dowel_slides_at_its_strength() {
+        let dowel = bounded();
+        let yielding = 10_685.0 / dowel.stiffness_n;
+        let below = dowel.at(0.9 * yielding, 0.0, 0.0);
+        assert!((below.force - 0.9 * 10_685.0).abs() < 2.0 && below.slid == 0.0);
+        let above = dowel.at(-3.0 * yielding, 0.0, 0.0);
+        assert!((above.force + 10_685.0).abs() < 1.0 && above.stiffness == 0.0);
+        let back = dowel.at(-2.5 * yielding, above.slid, 0.0);
+        assert!((back.force + 0.5 * 10_685.0).abs() < 1.0 && back.slid == above.slid);
+    }
+
+    /// Half the yield stress along the axis leaves sqrt(3)/2 of the strength across it, yielding leaves none; the slope is that of
+    /// the force.
+    #[test]
+    fn axial_stress_takes_the_strength() {
+        let dowel = bounded();
+        let at = |axial| dowel.at(1.0, 0.0, axial);
+        assert!((at(175.0).force / at(0.0).force - 0.75_f64.sqrt()).abs() < 1e-12);
+        for axial in [-355.0, -350.0, 350.0, 400.0] {
+            let none = at(axial);
+            assert!(none.force == 0.0 && none.slid == 1.0 && none.by_axial == 0.0);
+        }
+        let secant = (at(200.001).force - at(199.999).force) / 0.002;
+        assert!((at(200.0).by_axial - secant).abs() < 1e-6 * secant.abs());
+    }
+
+    /// Thin bars in strong concrete shear off: V_0 is no more than A fy/sqrt(3).
+    #[test]
+    fn steel_shears_off_in_strong_concrete() {
+        let free = Dowel::he_kwan(10.0, 80.0, 200e3, 50.0, [0.0, 0.0, 1.0]).unwrap();
+        let dowel = free.bounded(10.0, 80.0, 350.0).unwrap();
+        let shear = 25.0 * std::f64::consts::PI * 350.0 / 3.0_f64.sqrt();
+        assert!((dowel.at(1.0, 0.0, 0.0).force - shear).abs() < 1e-6);
     }
 }

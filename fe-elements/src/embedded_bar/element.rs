@@ -12,7 +12,7 @@ use fe_core::shape::quadrature;
 use nalgebra::{Vector1, Vector3};
 
 use super::cut::{Host, Piece};
-use super::{Bar, gradients_at};
+use super::{Bar, Dowel, gradients_at};
 use crate::led::columns;
 use crate::points;
 
@@ -38,7 +38,7 @@ pub struct EmbeddedBar {
     host: [NodeId; 20],
     nodes: Vec<NodeId>,
     area: f64,
-    dowel: f64,
+    dowel: Option<Dowel>,
     law: Arc<dyn Material<Axial>>,
     points: Vec<BarPoint>,
     /// Ends of each piece and the number of its points.
@@ -53,9 +53,11 @@ impl EmbeddedBar {
         for piece in pieces {
             let [a, b] = piece.ends;
             let (length, t) = ((b - a).norm(), piece.direction);
-            let transverse = bar
-                .dowel
-                .and_then(|d| Vector3::from(d.plane_normal).cross(&t).try_normalize(1e-6));
+            let transverse = bar.dowel.and_then(|d| {
+                Vector3::from(d.plane_normal())
+                    .cross(&t)
+                    .try_normalize(1e-6)
+            });
             for &(xi, w) in &rule {
                 let share = 0.5 * (1.0 + xi);
                 let position = a + share * (b - a);
@@ -82,7 +84,9 @@ impl EmbeddedBar {
             host: host.nodes,
             nodes: host.nodes.into(),
             area: bar.area_mm2,
-            dowel: bar.dowel.map_or(0.0, |d| d.stiffness_n),
+            dowel: bar
+                .dowel
+                .filter(|_| points.iter().any(|p| p.shear.is_some())),
             law: Arc::clone(&bar.law),
             points,
             pieces: drawn,
@@ -106,6 +110,16 @@ impl EmbeddedBar {
         }
         self.nodes = leaders;
         self
+    }
+
+    /// Length of the histories of the points.
+    fn axial_len(&self) -> usize {
+        self.points.len() * self.law.state_len()
+    }
+
+    /// Whether the dowel can slide.
+    fn slides(&self) -> bool {
+        self.dowel.is_some_and(|d| d.is_bounded())
     }
 
     /// Name of the bar.
@@ -170,12 +184,13 @@ fn strain(point: &BarPoint, u: &[f64]) -> Vector1<f64> {
     Vector1::new(dot(&point.axial, u))
 }
 
-/// Adds c r r^T to the upper triangle of a matrix.
-fn add_outer(c: f64, row: &[f64], out: &mut [f64]) {
-    for (i, target) in out.chunks_exact_mut(row.len()).enumerate() {
-        let scaled = c * row[i];
+/// Adds c a b^T to a matrix, to its upper triangle unless `full`.
+fn add_outer(c: f64, (a, b): (&[f64], &[f64]), full: bool, out: &mut [f64]) {
+    for (i, target) in out.chunks_exact_mut(b.len()).enumerate() {
+        let scaled = c * a[i];
         if scaled != 0.0 {
-            for (t, r) in target[i..].iter_mut().zip(&row[i..]) {
+            let from = if full { 0 } else { i };
+            for (t, r) in target[from..].iter_mut().zip(&b[from..]) {
                 *t += scaled * r;
             }
         }
@@ -191,12 +206,20 @@ impl Element for EmbeddedBar {
         &Dof::DISPLACEMENTS
     }
 
+    /// The histories of the points, then the slid strains of bounded dowels.
     fn state_len(&self) -> usize {
-        self.points.len() * self.law.state_len()
+        let slid = if self.slides() { self.points.len() } else { 0 };
+        self.axial_len() + slid
     }
 
     fn init_state(&self, state: &mut [f64]) {
-        points::init_state(self.law.as_ref(), state);
+        let (axial, slid) = state.split_at_mut(self.axial_len());
+        points::init_state(self.law.as_ref(), axial);
+        slid.fill(0.0);
+    }
+
+    fn unsymmetric(&self) -> bool {
+        self.slides()
     }
 
     fn evaluate(
@@ -209,6 +232,8 @@ impl Element for EmbeddedBar {
     ) -> Result<(), ElementError> {
         let n = self.law.state_len();
         let point_ctx = points::context(0.0, ctx);
+        let (trial, slid) = trial.split_at_mut(self.axial_len());
+        slid.copy_from_slice(&committed[self.axial_len()..]);
         for (p, point) in self.points.iter().enumerate() {
             let strain = strain(point, u);
             let range = p * n..(p + 1) * n;
@@ -225,26 +250,42 @@ impl Element for EmbeddedBar {
             for (f, b) in out.force.iter_mut().zip(&point.axial) {
                 *f += axial * b;
             }
+            let full = self.slides() && ctx.operator == Operator::Tangent;
+            let mut add = |c: f64, rows: &[f64], columns: &[f64]| {
+                add_outer(c * point.weight, (rows, columns), full, out.stiffness);
+            };
+            let slope = response.tangent[(0, 0)];
             if ctx.operator != Operator::None {
-                let c = self.area * point.weight * response.tangent[(0, 0)];
-                add_outer(c, &point.axial, out.stiffness);
+                add(self.area * slope, &point.axial, &point.axial);
             }
-            if let Some(shear) = &point.shear {
-                let c = self.dowel * point.weight;
-                let force = c * dot(shear, u);
-                for (f, b) in out.force.iter_mut().zip(shear.iter()) {
-                    *f += force * b;
+            let (Some(dowel), Some(shear)) = (&self.dowel, &point.shear) else {
+                continue;
+            };
+            let kept = slid.get(p).copied().unwrap_or_default();
+            let across = dowel.at(dot(shear, u), kept, response.stress[0]);
+            if let Some(slid) = slid.get_mut(p) {
+                *slid = across.slid;
+            }
+            for (f, b) in out.force.iter_mut().zip(shear.iter()) {
+                *f += across.force * point.weight * b;
+            }
+            match ctx.operator {
+                Operator::None => {}
+                Operator::Tangent => {
+                    add(across.stiffness, shear, shear);
+                    if across.by_axial != 0.0 {
+                        add(across.by_axial * slope, shear, &point.axial);
+                    }
                 }
-                if ctx.operator != Operator::None {
-                    add_outer(c, shear, out.stiffness);
-                }
+                Operator::Secant => add(dowel.stiffness(), shear, shear),
             }
         }
         Ok(())
     }
 
     fn latch(&self, trial: &[f64], base: &mut [f64]) -> bool {
-        points::latch(self.law.as_ref(), trial, base)
+        let axial = self.axial_len();
+        points::latch(self.law.as_ref(), &trial[..axial], &mut base[..axial])
     }
 
     fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
@@ -253,9 +294,11 @@ impl Element for EmbeddedBar {
             .iter()
             .map(|p| (self.area * p.weight, strain(p, u)));
         let energy = points::free_energy(self.law.as_ref(), 0.0, state, bar)?;
-        let dowel = self.points.iter().filter_map(|p| {
+        let dowel = self.points.iter().enumerate().filter_map(|(i, p)| {
+            let slid = state.get(self.axial_len() + i).copied();
             let shear = dot(p.shear.as_ref()?, u);
-            Some(0.5 * self.dowel * p.weight * shear * shear)
+            let stored = self.dowel?.free_energy(shear, slid.unwrap_or_default());
+            Some(stored * p.weight)
         });
         Some(energy + dowel.sum::<f64>())
     }

@@ -166,7 +166,7 @@ fn dowel(
     let band = settings.nominal_band_width(specimen);
     let young = steel.young_mpa.get();
     let plane = [0.0, 0.0, 1.0];
-    Ok(Some(Dowel::he_kwan(
-        diameter, strength, young, band, plane,
-    )?))
+    let dowel = Dowel::he_kwan(diameter, strength, young, band, plane)?;
+    let fy = steel.fy_mpa.get();
+    Ok(Some(dowel.bounded(diameter, strength, fy)?))
 }
