@@ -161,6 +161,8 @@ pub enum CompressionSoftening {
     None,
     /// The strength falls with the strain across
     VecchioCollins,
+    /// The same, less, as cracks slip by themselves
+    VecchioCollinsSlip,
 }
 
 /// Set of modelling choices.

@@ -96,12 +96,15 @@ fn cracks_weaken_the_strut_they_cross() {
     let p = parameters();
     let across = 0.01;
     let law = CompressionSoftening::VecchioCollins;
-    let weakened = |average: f64| 1.0 / (1.0 + 0.27 * (average / p.eps_c1 - 0.37));
+    let excess = |average: f64| 0.27 * (average / p.eps_c1 - 0.37);
+    let weakened = |average: f64| 1.0 / (1.0 + excess(average));
+    let slipping = CompressionSoftening::VecchioCollinsSlip;
     for (compression_softening, crack_spacing_mm, share) in [
         (CompressionSoftening::None, WIDTH, 1.0),
         (law, WIDTH, weakened(across)),
         (law, 0.4 * WIDTH, weakened(2.5 * across)),
         (law, 2.0 * WIDTH, weakened(across)),
+        (slipping, WIDTH, 1.0 / (1.0 + 0.55 * excess(across))),
     ] {
         let mut point = Point::new(build(FixedCrackParameters {
             compression_softening,

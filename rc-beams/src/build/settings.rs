@@ -122,6 +122,7 @@ impl ModelSettings {
             self.compression_softening = match softening {
                 Compression::None => CompressionSoftening::None,
                 Compression::VecchioCollins => CompressionSoftening::VecchioCollins,
+                Compression::VecchioCollinsSlip => CompressionSoftening::VecchioCollinsSlip,
             };
         }
         self.crack_spacing_mm = given.crack_spacing_mm.unwrap_or(self.crack_spacing_mm);
