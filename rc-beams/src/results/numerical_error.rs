@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-/// What peaks move by when something changes that must not matter, such as the order in which snaps are passed: the
-/// largest change by the criterion, the rule of the points and the driver, 2.3 %, rounded up (`docs/accuracy.md`).
-pub const BRANCHES: f64 = 0.03;
+/// What peaks move by as cracks fall otherwise, on another mesh or another branch, and which the finer mesh of one beam can miss by
+/// chance: twice the root mean square of its changes in the 21 beams, 3.9 % (`docs/accuracy.md`).
+pub const CHANCE: f64 = 0.08;
 /// Elements of the finer mesh along and up over those of the mesh.
 pub const REFINEMENT: f64 = 1.5;
 
@@ -12,7 +12,7 @@ pub const REFINEMENT: f64 = 1.5;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NumericalError {
     /// Error bar of the peak, relative to it: the larger of the distances to the extrapolated peaks, no less than
-    /// [`BRANCHES`].
+    /// [`CHANCE`].
     pub error_bar: f64,
     /// With steps half as long.
     pub half_steps: Variation,
@@ -52,7 +52,7 @@ impl NumericalError {
         let finer_mesh = Variation::new(peak_kn, finer_kn, REFINEMENT);
         let far = |v: Variation| (v.extrapolated_peak_load_kn / peak_kn - 1.0).abs();
         Self {
-            error_bar: far(half_steps).max(far(finer_mesh)).max(BRANCHES),
+            error_bar: far(half_steps).max(far(finer_mesh)).max(CHANCE),
             half_steps,
             finer_mesh,
             mesh,
@@ -92,13 +92,13 @@ mod tests {
             error.line(),
             "+-15 % (half the steps 202.0 kN, +1.0 %; mesh 90x6x1 190.0 kN, -5.0 %)"
         );
-        let steps = NumericalError::new(200.0, 206.0, (201.0, String::new()));
-        assert!((steps.error_bar - 0.06).abs() < 1e-15);
+        let steps = NumericalError::new(200.0, 210.0, (201.0, String::new()));
+        assert!((steps.error_bar - 0.10).abs() < 1e-15);
     }
 
     #[test]
-    fn no_bar_is_shorter_than_the_distance_of_branches() {
+    fn no_bar_is_shorter_than_chance() {
         let error = NumericalError::new(200.0, 200.0, (201.0, String::new()));
-        assert_eq!(error.error_bar, BRANCHES);
+        assert_eq!(error.error_bar, CHANCE);
     }
 }
