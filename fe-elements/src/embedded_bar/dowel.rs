@@ -96,7 +96,8 @@ impl Dowel {
         })
     }
 
-    /// The same with the strength of CEB-FIP Model Code 1990, 3.10 (without eccentricity and partial factors), after Rasmussen (1963):
+    /// The same with the strength of CEB-FIP Model Code 1990, 3.10 (without eccentricity and partial factors), after Rasmussen (1963),
+    /// at second hand:
     ///
     /// V_u = V_0 sqrt(1 - (sigma/fy)^2), V_0 = 1.3 phi^2 sqrt(fc fy), no more than A fy/sqrt(3).
     ///

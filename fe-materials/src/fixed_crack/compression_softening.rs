@@ -15,7 +15,7 @@ pub enum CompressionSoftening {
     /// ([`FixedCrackParameters::crack_reach`](super::FixedCrackParameters::crack_reach)) at a spacing s.
     VecchioCollins,
     /// The same with C = 0.55: for laws that count the slip of cracks, in whose tests the strain across held that of the slip
-    /// too (Vecchio 2000; Wong, Vecchio and Trommels 2013, for this form).
+    /// too (Vecchio 2000; Wong, Vecchio and Trommels 2013, at second hand, for this form).
     #[default]
     VecchioCollinsSlip,
 }
