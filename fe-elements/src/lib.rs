@@ -3,7 +3,8 @@
 
 pub mod embedded_bar;
 pub mod hex20;
-pub mod installed;
+pub mod input;
+mod installed;
 mod kernel;
 pub mod led;
 pub mod linear;

@@ -9,6 +9,7 @@ use fe_core::material::{Material, Operator, PointContext, Response};
 use fe_core::mesh::{CellKind, NodeId};
 use nalgebra::Vector3;
 
+use crate::input::positive;
 use crate::points;
 
 /// Plane-stress element of 8 nodes with N/8 displacements each,
@@ -92,15 +93,7 @@ impl<const N: usize> Sheet<N> {
 
 /// Refuses a thickness (mm) that is not positive.
 pub(crate) fn admit_thickness(thickness: f64) -> Result<(), ElementError> {
-    if thickness.is_finite() && thickness > 0.0 {
-        return Ok(());
-    }
-    Err(ElementError::Input {
-        what: "thickness_mm".into(),
-        value: thickness,
-        allowed: "(0, inf)".into(),
-        remedy: "give a positive thickness".into(),
-    })
+    positive("thickness_mm", thickness, "give a positive thickness")
 }
 
 impl<const N: usize> Element for Sheet<N> {

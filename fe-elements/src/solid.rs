@@ -10,6 +10,7 @@ use fe_core::material::{Material, Operator, PointContext, Response};
 use fe_core::mesh::{CellKind, NodeId};
 use nalgebra::{Matrix6, Vector6};
 
+use crate::input::positive;
 use crate::kernel::MAX_POINTS;
 use crate::points;
 
@@ -56,14 +57,11 @@ impl<I: Interpolation> SolidElement<I> {
         law: Arc<dyn Material<Solid>>,
         band_width: f64,
     ) -> Result<Self, ElementError> {
-        if !(band_width.is_finite() && band_width > 0.0) {
-            return Err(ElementError::Input {
-                what: "crack-band width (mm)".into(),
-                value: band_width,
-                allowed: "(0, inf)".into(),
-                remedy: "give a positive width, or a normal that is not zero".into(),
-            });
-        }
+        positive(
+            "crack-band width (mm)",
+            band_width,
+            "give a positive width, or a normal that is not zero",
+        )?;
         law.admit(&PointContext::new(band_width))
             .map_err(|source| ElementError::Material { point: 0, source })?;
         Ok(Self {

@@ -11,6 +11,8 @@ use fe_core::points;
 use fe_core::shape::{line3, quadrature};
 use nalgebra::{Vector1, Vector3};
 
+use crate::input::positive;
+
 /// One of the two Gauss points.
 #[derive(Debug, Clone)]
 struct Point {
@@ -50,14 +52,7 @@ impl Truss3 {
         area_mm2: f64,
         law: Arc<dyn Material<Axial>>,
     ) -> Result<Self, ElementError> {
-        if !(area_mm2.is_finite() && area_mm2 > 0.0) {
-            return Err(ElementError::Input {
-                what: "area_mm2".into(),
-                value: area_mm2,
-                allowed: "(0, inf)".into(),
-                remedy: "give a positive area".into(),
-            });
-        }
+        positive("area_mm2", area_mm2, "give a positive area")?;
         let mut points = Vec::new();
         let mut length = 0.0;
         for (point, (xi, w)) in quadrature::gauss_legendre(2).into_iter().enumerate() {

@@ -2,6 +2,8 @@
 
 use fe_core::element::ElementError;
 
+use crate::input::positive;
+
 /// Resistance of a bar against the shear strain of its host.
 ///
 /// A crack crossed by the bar opens a transverse slip delta = h gamma over the band width h; the bar, a
@@ -85,7 +87,7 @@ impl Dowel {
             ("young_mpa", young_mpa),
             ("band_width_mm", band_width_mm),
         ];
-        positive(&inputs)?;
+        admit(&inputs)?;
         let inertia = std::f64::consts::PI * diameter_mm.powi(4) / 64.0;
         let foundation = 127.0 * 0.8 * fc_mpa.sqrt() / diameter_mm.powf(2.0 / 3.0);
         let beta = (foundation * diameter_mm / (4.0 * young_mpa * inertia)).powf(0.25);
@@ -112,7 +114,7 @@ impl Dowel {
         fc_mpa: f64,
         yield_mpa: f64,
     ) -> Result<Self, ElementError> {
-        positive(&[
+        admit(&[
             ("diameter_mm", diameter_mm),
             ("fc_mpa", fc_mpa),
             ("yield_mpa", yield_mpa),
@@ -172,19 +174,11 @@ impl Dowel {
     }
 }
 
-fn positive(inputs: &[(&str, f64)]) -> Result<(), ElementError> {
-    match inputs
-        .iter()
-        .find(|(_, value)| !(value.is_finite() && *value > 0.0))
-    {
-        None => Ok(()),
-        Some(&(what, value)) => Err(ElementError::Input {
-            what: format!("dowel {what}"),
-            value,
-            allowed: "(0, inf)".into(),
-            remedy: "give a positive value".into(),
-        }),
-    }
+fn admit(inputs: &[(&str, f64)]) -> Result<(), ElementError> {
+    let mut all = inputs.iter();
+    all.try_for_each(|(what, value)| {
+        positive(&format!("dowel {what}"), *value, "give a positive value")
+    })
 }
 
 #[cfg(test)]

@@ -232,6 +232,7 @@ impl Element for EmbeddedBar {
     ) -> Result<(), ElementError> {
         let n = self.law.state_len();
         let point_ctx = points::context(0.0, ctx);
+        let full = self.slides() && ctx.operator == Operator::Tangent;
         let (trial, slid) = trial.split_at_mut(self.axial_len());
         slid.copy_from_slice(&committed[self.axial_len()..]);
         for (p, point) in self.points.iter().enumerate() {
@@ -250,7 +251,6 @@ impl Element for EmbeddedBar {
             for (f, b) in out.force.iter_mut().zip(&point.axial) {
                 *f += axial * b;
             }
-            let full = self.slides() && ctx.operator == Operator::Tangent;
             let mut add = |c: f64, rows: &[f64], columns: &[f64]| {
                 add_outer(c * point.weight, (rows, columns), full, out.stiffness);
             };
@@ -294,8 +294,9 @@ impl Element for EmbeddedBar {
             .iter()
             .map(|p| (self.area * p.weight, strain(p, u)));
         let energy = points::free_energy(self.law.as_ref(), 0.0, state, bar)?;
+        let slid = &state[self.axial_len()..];
         let dowel = self.points.iter().enumerate().filter_map(|(i, p)| {
-            let slid = state.get(self.axial_len() + i).copied();
+            let slid = slid.get(i).copied();
             let shear = dot(p.shear.as_ref()?, u);
             let stored = self.dowel?.free_energy(shear, slid.unwrap_or_default());
             Some(stored * p.weight)
