@@ -112,6 +112,10 @@ pub struct Cracks {
     #[arg(long, value_name = "MM", value_parser = crack_spacing, allow_negative_numbers = true)]
     pub crack_spacing_mm: Option<f64>,
 
+    /// Share of the tensile strength down to which the axes of a crack follow the strain, fixed then; without it, 1: at the onset
+    #[arg(long, value_name = "SHARE", value_parser = fixing_share, allow_negative_numbers = true)]
+    pub fixing_share: Option<f64>,
+
     /// Least shear stiffness of open cracks over that of sound concrete; without it, that of the preset
     #[arg(long, value_name = "SHARE", value_parser = shear_floor, allow_negative_numbers = true)]
     pub shear_floor: Option<f64>,
@@ -424,6 +428,10 @@ fn band_factor(text: &str) -> Result<f64, String> {
 
 fn crack_spacing(text: &str) -> Result<f64, String> {
     number(text, 10.0..=1000.0)
+}
+
+fn fixing_share(text: &str) -> Result<f64, String> {
+    number(text, 0.01..=1.0)
 }
 
 fn energy_factor(text: &str) -> Result<f64, String> {

@@ -26,12 +26,17 @@ pub(super) enum Verdict {
     Wrong(Disagreement),
 }
 
+/// Share of a step at which columns that disagree are looked at again.
+const SHORTER: f64 = 0.125;
+
 /// Differences of a function of `n` variables with `n` values.
 #[derive(Debug)]
 pub(super) struct Differences {
     x: Vec<f64>,
     up: Vec<f64>,
     down: Vec<f64>,
+    /// Disagreement of the one-sided differences, by row.
+    jumps: Vec<f64>,
     /// Step of each variable.
     steps: Vec<f64>,
 }
@@ -43,6 +48,7 @@ impl Differences {
             x: vec![0.0; n],
             up: vec![0.0; n],
             down: vec![0.0; n],
+            jumps: vec![0.0; n],
             steps: (0..n)
                 .map(|j| factor * amplitude[j % amplitude.len()])
                 .collect(),
@@ -50,7 +56,7 @@ impl Differences {
     }
 
     /// Compares the tangent `entry(i, j)` at `x`, where the function has the values `f`, with central
-    /// differences, and the columns that disagree with those of an eighth of the step.
+    /// differences, and the columns that disagree with those of a shorter step.
     ///
     /// # Errors
     ///
@@ -68,9 +74,15 @@ impl Differences {
         for column in 0..x.len() {
             let h = self.steps[column];
             let given = |i| entry(i, column);
-            let (mut miss, mut jump) = self.column(x, f, (column, h), given, &mut function)?;
+            let mut miss = self.column(x, f, (column, h), given, &mut function)?;
+            let mut jump = 0.0;
             if miss.size() > tolerance {
-                (miss, jump) = self.column(x, f, (column, 0.125 * h), given, &mut function)?;
+                let wide = self.jumps.clone();
+                miss = self.column(x, f, (column, SHORTER * h), given, &mut function)?;
+                jump = self.jumps.iter().fold(0.0_f64, |most, j| most.max(j.abs()));
+                // Curvature, in proportion to the step, can hide a kink.
+                let kink = (self.jumps[miss.row] - SHORTER * wide[miss.row]) / (1.0 - SHORTER);
+                jump = jump.max(kink.abs());
             }
             if miss.size() <= tolerance {
                 worst = worst.max(miss.size());
@@ -87,8 +99,8 @@ impl Differences {
         })
     }
 
-    /// Largest disagreement of one column with central differences of step `h`, and the largest
-    /// disagreement of the one-sided differences with one another.
+    /// Largest disagreement of one column with central differences of step `h`; keeps how far the one-sided differences
+    /// disagree with one another.
     fn column<E>(
         &mut self,
         x: &[f64],
@@ -96,7 +108,7 @@ impl Differences {
         (column, h): (usize, f64),
         given: impl Fn(usize) -> f64,
         function: &mut impl FnMut(&[f64], &mut [f64]) -> Result<(), E>,
-    ) -> Result<(Disagreement, f64), E> {
+    ) -> Result<Disagreement, E> {
         self.x.copy_from_slice(x);
         self.x[column] = x[column] + h;
         let above = self.x[column] - x[column];
@@ -111,16 +123,15 @@ impl Differences {
             difference: (self.up[i] - self.down[i]) / (above + below),
         };
         let mut worst = central(0);
-        let mut jump = 0.0_f64;
         for i in 0..f.len() {
             let (forward, backward) = ((self.up[i] - f[i]) / above, (f[i] - self.down[i]) / below);
-            jump = jump.max((forward - backward).abs());
+            self.jumps[i] = forward - backward;
             let here = central(i);
             if here.size().is_nan() || here.size() > worst.size() {
                 worst = here;
             }
         }
-        Ok((worst, jump))
+        Ok(worst)
     }
 }
 
@@ -166,6 +177,8 @@ mod tests {
         ));
         assert!(matches!(verdict(f64::abs, 0.0, 1.0), Verdict::Kink));
         assert!(matches!(verdict(f64::abs, 0.0, 5.0), Verdict::Wrong(_)));
+        let curved = |x: f64| x.abs() - 6e5 * x * x;
+        assert!(matches!(verdict(curved, 0.0, 1.0), Verdict::Kink));
         // A kink within the first step but outside the second is no obstacle.
         assert!(matches!(verdict(f64::abs, 5e-6, 1.0), Verdict::Agrees(_)));
         assert!(matches!(

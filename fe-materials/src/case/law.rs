@@ -111,6 +111,9 @@ pub enum LawCase {
         /// Distance of cracks (mm).
         #[serde(default)]
         crack_spacing_mm: Option<f64>,
+        /// Share of the strength at which axes are fixed (-).
+        #[serde(default)]
+        fixing_share: Option<f64>,
         /// Whether cracks open on the Ottosen surface too.
         #[serde(default = "yes")]
         ottosen_onset: bool,
@@ -241,6 +244,7 @@ impl LawCase {
                 shear_transfer,
                 compression_softening,
                 crack_spacing_mm,
+                fixing_share,
                 ottosen_onset,
                 ..
             } => {
@@ -257,6 +261,7 @@ impl LawCase {
                     shear_transfer: shear_transfer.unwrap_or(default.shear_transfer),
                     compression_softening: *compression_softening,
                     crack_spacing_mm: crack_spacing_mm.unwrap_or(default.crack_spacing_mm),
+                    fixing_share: fixing_share.unwrap_or(default.fixing_share),
                     ..default
                 };
                 let calibration = Calibration::model_code(c.fcm_mpa, c.fctm_mpa);

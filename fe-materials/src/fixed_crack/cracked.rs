@@ -2,7 +2,8 @@
 
 use fe_core::kinematics::Solid;
 use fe_core::material::{MaterialError, Operator, PointContext, Response};
-use fe_core::voigt::{SHEAR_PAIRS, strain_into, strain_transform, stress_out_of};
+use fe_core::principal::principal;
+use fe_core::voigt::{SHEAR_PAIRS, strain_into, strain_tensor, strain_transform, stress_out_of};
 use nalgebra::{Matrix6, Vector6};
 
 use super::shear::{Factor, Retention};
@@ -22,7 +23,11 @@ impl FixedCrack {
         let tension = self.tension(state, envelopes, ctx.band_width)?;
         let compression = &envelopes.compression;
         let turning = !state.second;
-        if turning {
+        if !onset && !state.fixed {
+            self.follow(strain, state, &tension, (ctx, envelopes));
+        }
+        let following = !onset && !state.fixed;
+        if turning && !following {
             state.turn(strain);
         }
         let e = strain_into(&state.axes, strain);
@@ -36,11 +41,16 @@ impl FixedCrack {
             *k += ctx.relaxation * growth.max(0.0);
         }
         state.second |= grow_t[1] > 0.0 || grow_t[2] > 0.0;
+        state.fixed |= state.second || self.p.fixing_share >= 1.0;
         let growing = |growth: f64| if growth > 0.0 { ctx.relaxation } else { 0.0 };
         retention.growing = grow_t.map(growing);
         if turning {
             // Isotropic in the plane of the crack: the axis that is compressed more, the last one, speaks for both.
             state.kc[2] = state.kc[1].max(state.kc[2]);
+        }
+        if following {
+            // Isotropic altogether.
+            state.kc[2] = state.kc[0].max(state.kc[2]);
         }
         let grow_c: [f64; 3] = std::array::from_fn(|i| -e[i] - state.kc[i]);
         for (k, growth) in state.kc.iter_mut().zip(grow_c) {
@@ -49,8 +59,15 @@ impl FixedCrack {
         if turning {
             state.kc[1] = state.kc[2];
         }
+        if following {
+            state.kc[0] = state.kc[2];
+        }
         for i in 0..3 {
-            let pressed = if turning { [0, 2, 2][i] } else { i };
+            let pressed = match (following, turning) {
+                (true, _) => 2,
+                (_, true) => [0, 2, 2][i],
+                _ => i,
+            };
             state.crushing = state.crushing.max(compression.crushing(state.kc[i]));
             let (soft, soft_slopes) = self.softening(&state.kt, i, ctx.band_width);
             let (bridged, by_kt) = tension[i].secant(state.kt[i]);
@@ -93,7 +110,7 @@ impl FixedCrack {
                 continue;
             }
             d.set_row(row, &shear.tangent[k].transpose());
-            if onset || (turning && k == 1) {
+            if onset || following || (turning && k == 1) {
                 // The axes turn with the strain: stress and strain stay coaxial.
                 let gap = e[i] - e[j];
                 d[(row, row)] = if gap.abs() > 1e-9 * e.amax() {
@@ -112,7 +129,7 @@ impl FixedCrack {
     }
 
     /// Factor of the cracks across axis `i` on its compression curve, and its derivatives.
-    fn softening(&self, kt: &[f64; 3], i: usize, band_width: f64) -> (f64, [f64; 3]) {
+    pub(super) fn softening(&self, kt: &[f64; 3], i: usize, band_width: f64) -> (f64, [f64; 3]) {
         let law = self.p.compression_softening;
         let unit = self.p.crack_reach(band_width) / (self.p.crack_spacing_mm * self.p.eps_c1);
         law.factor(kt, i, unit)
@@ -129,7 +146,9 @@ impl FixedCrack {
         let tension = self.tension(state, &envelopes, ctx.band_width).ok()?;
         let compression = &envelopes.compression;
         let mut state = *state;
-        if !state.second {
+        if !state.fixed {
+            state.axes = principal(&strain_tensor(strain)).1;
+        } else if !state.second {
             state.turn(strain);
         }
         let e = strain_into(&state.axes, strain);

@@ -11,6 +11,10 @@
 //! sigma_1 >= ft/2 (CEB Bulletin 156). Its normal n, the principal axis, then freezes, and Poisson's ratio is zero. The
 //! axes s and t in its plane stay principal there until a second crack opens across one of them, at a strain of ft/E.
 //!
+//! With a fixing share less than one all axes go on following the strain, one history kc serving the three, while the crack bridges
+//! more than that share of its strength, there is no second crack, and the stresses in the axes are in the order of the strains
+//! (between the fixed and the rotating crack, Cervenka 1985).
+//!
 //! **Cracked**, in these axes, with the histories kt_i = max e_i and kc_i = max(-e_i),
 //!
 //! sigma_i = Et(kt_i) e_i for e_i >= 0,  beta_i Ec(kc_i) e_i for e_i < 0,
@@ -31,6 +35,7 @@
 mod compression_softening;
 mod cracked;
 mod curves;
+mod following;
 mod shear;
 mod shear_transfer;
 mod uncracked;
@@ -88,6 +93,9 @@ pub struct FixedCrackParameters {
     pub compression_softening: CompressionSoftening,
     /// Distance of cracks s (mm), see [`Self::crack_reach`].
     pub crack_spacing_mm: f64,
+    /// Share of the strength at onset (-), in (0, 1], above which the axes of a crack follow the strain. 1: fixed at the onset.
+    /// The authors of ATENA, which has the same, advise 0.7 for large elements.
+    pub fixing_share: f64,
 }
 
 /// Distance of cracks (mm) where none is given: the grid of the wires in the panels whose average strains gave the softening of
@@ -119,6 +127,7 @@ impl FixedCrackParameters {
             },
             compression_softening: CompressionSoftening::default(),
             crack_spacing_mm: CRACK_SPACING_MM,
+            fixing_share: 1.0,
         }
     }
 
@@ -149,6 +158,14 @@ impl FixedCrackParameters {
         }
         if !(self.shear_floor > 0.0 && self.shear_floor <= 1.0) {
             return Err(out_of_range("shear_floor", self.shear_floor, "-", "(0, 1]"));
+        }
+        if !(self.fixing_share > 0.0 && self.fixing_share <= 1.0) {
+            return Err(out_of_range(
+                "fixing_share",
+                self.fixing_share,
+                "-",
+                "(0, 1]",
+            ));
         }
         self.shear_transfer.check()?;
         let plasticity = self.young_mpa * self.eps_c1 / self.fcm_mpa;
@@ -195,7 +212,7 @@ pub struct FixedCrack {
 
 /// Internal variables; see [`State`].
 const STATE_VARS: [StateVar; 7] = [
-    StateVar::scalar("cracks", "-"),
+    StateVar::scalar("crack_stage", "-"),
     StateVar::vector("crack_axes", "-", 9),
     StateVar::vector("kappa_t", "-", 3),
     StateVar::vector("kappa_c", "-", 3),
@@ -208,6 +225,8 @@ const STATE_VARS: [StateVar; 7] = [
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct State {
     cracked: bool,
+    /// Whether the axes no longer follow the strain.
+    fixed: bool,
     /// Whether a second crack has opened, which fixes all axes.
     second: bool,
     /// Columns are the axes n, s, t.
@@ -233,7 +252,8 @@ impl State {
     fn read(s: &[f64]) -> Self {
         Self {
             cracked: Self::is_cracked(s),
-            second: s[0] > 1.5,
+            fixed: s[0] > 1.5,
+            second: s[0] > 2.5,
             axes: Matrix3::from_column_slice(&s[1..10]),
             kt: [s[10], s[11], s[12]],
             kc: [s[13], s[14], s[15]],
@@ -244,7 +264,8 @@ impl State {
     }
 
     fn write(&self, s: &mut [f64]) {
-        s[0] = f64::from(u8::from(self.cracked) + u8::from(self.second));
+        // 0: sound, 1: axes follow, 2: axes fixed, 3: second crack.
+        s[0] = f64::from(u8::from(self.cracked) + u8::from(self.fixed) + u8::from(self.second));
         s[1..10].copy_from_slice(self.axes.as_slice());
         s[10..13].copy_from_slice(&self.kt);
         s[13..16].copy_from_slice(&self.kc);
@@ -410,7 +431,7 @@ impl Material<Solid> for FixedCrack {
     }
 
     fn latch(&self, trial: &[f64], base: &mut [f64]) -> bool {
-        // The number of cracks.
+        // Opening, fixing and a second crack.
         if trial[0] <= base[0] {
             return false;
         }
@@ -420,7 +441,7 @@ impl Material<Solid> for FixedCrack {
             kept.shares = [1.0; 2];
             kept.kt = self.strains_at_onset(found.onset);
         }
-        (kept.cracked, kept.second) = (found.cracked, found.second);
+        (kept.cracked, kept.fixed, kept.second) = (found.cracked, found.fixed, found.second);
         kept.axes = found.axes;
         kept.write(base);
         true

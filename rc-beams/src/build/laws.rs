@@ -78,6 +78,7 @@ fn concrete(
                 shear_transfer: settings.shear_transfer,
                 compression_softening: settings.compression_softening,
                 crack_spacing_mm: settings.crack_spacing_mm,
+                fixing_share: settings.fixing_share,
                 ..source
             };
             let onset = Ottosen::new(&Calibration::model_code(c.fcm_mpa, c.fctm_mpa))?;

@@ -30,6 +30,8 @@ pub struct ModelSettings {
     pub compression_softening: CompressionSoftening,
     /// Distance of its cracks (mm).
     pub crack_spacing_mm: f64,
+    /// Share of the strength bridged at which the axes of a crack are fixed (-).
+    pub fixing_share: f64,
     /// Floor of the shear factor of open cracks (-).
     pub shear_floor: f64,
     /// Crack-band width of the fixed-crack law over the side of the equivalent square in the plane of the beam.
@@ -68,6 +70,7 @@ impl ModelSettings {
             },
             compression_softening: CompressionSoftening::default(),
             crack_spacing_mm: CRACK_SPACING_MM,
+            fixing_share: 1.0,
             shear_floor: 1e-4,
             band_factor: 1.0,
             fracture_energy_factor: 1.0,
@@ -126,6 +129,7 @@ impl ModelSettings {
             };
         }
         self.crack_spacing_mm = given.crack_spacing_mm.unwrap_or(self.crack_spacing_mm);
+        self.fixing_share = given.fixing_share.unwrap_or(self.fixing_share);
         self.shear_floor = given.shear_floor.unwrap_or(self.shear_floor);
         self.band_factor = given.band_factor.unwrap_or(self.band_factor);
         self.fracture_energy_factor = given

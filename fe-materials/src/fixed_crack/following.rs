@@ -1,0 +1,46 @@
+//! Axes of a crack that follow the strain while it still bridges some of its strength.
+
+use fe_core::material::PointContext;
+use fe_core::principal::principal;
+use fe_core::voigt::strain_tensor;
+use nalgebra::Vector6;
+
+use super::curves::Tension;
+use super::{Envelopes, FixedCrack, State};
+
+impl FixedCrack {
+    /// Turns the axes into the principal ones of the strain, or fixes them: once the crack bridges no more than the fixing
+    /// share of its strength, or where the order of the stresses in the turned axes would no longer be that of the strains. Beyond
+    /// that the modulus (sigma_i - sigma_j)/(2 (e_i - e_j)) that turns them is negative, and a step could create energy.
+    pub(super) fn follow(
+        &self,
+        strain: &Vector6<f64>,
+        state: &mut State,
+        tension: &[Tension; 3],
+        (ctx, envelopes): (&PointContext, &Envelopes),
+    ) {
+        let bridged = tension[0].secant(state.kt[0]).0 * state.kt[0];
+        if bridged <= self.p.fixing_share * state.onset {
+            state.fixed = true;
+            return;
+        }
+        let (e, axes) = principal(&strain_tensor(strain));
+        let grown = |k: f64, e: f64| k + ctx.relaxation * (e - k).max(0.0);
+        let kt = std::array::from_fn(|i| grown(state.kt[i], e[i]));
+        let kc = state.kc.into_iter().fold(0.0, f64::max);
+        let whole = envelopes.compression.secant(grown(kc, -e[2])).0;
+        let stress = |i: usize| {
+            let secant = if e[i] >= 0.0 {
+                tension[i].secant(kt[i]).0
+            } else {
+                self.softening(&kt, i, ctx.band_width).0 * whole
+            };
+            secant * e[i]
+        };
+        if stress(0) >= stress(1) && stress(1) >= stress(2) {
+            state.axes = axes;
+        } else {
+            state.fixed = true;
+        }
+    }
+}
