@@ -1,0 +1,153 @@
+//! Writes the tables of `docs/panels.md`: panels in pure shear against their tests, with the default law and others.
+//!
+//! `cargo run --release -p fe-tests --bin panels`
+
+use std::fmt::Write as _;
+use std::fs;
+
+use fe_materials::fixed_crack::{CompressionSoftening, FixedCrackParameters, ShearTransfer};
+use fe_tests::accuracy::tables::insert;
+use fe_tests::cube::Failure;
+use fe_tests::provenance::commit;
+use fe_tests::toronto::{AGGREGATE_MM, End, SPACING_MM, TESTS};
+
+const DOCUMENT: &str = "docs/panels.md";
+
+/// What is changed in the default law.
+type Change = fn(&mut FixedCrackParameters);
+
+/// Name, change and distance of the cracks (mm).
+const SETTINGS: [(&str, Change, f64); 12] = [
+    ("default", |_| (), SPACING_MM),
+    ("struts: `vecchio-collins`", full, SPACING_MM),
+    ("struts: `none`", none, SPACING_MM),
+    ("shear: `damage`", damage, SPACING_MM),
+    ("aggregate 19 mm", large, SPACING_MM),
+    ("axes fixed at 0.7 of ft", follow, SPACING_MM),
+    ("axes fixed at 0.1 of ft", turn, SPACING_MM),
+    (
+        "axes at 0.7, struts `vecchio-collins`",
+        follow_full,
+        SPACING_MM,
+    ),
+    ("a crack every 25 mm", |_| (), 25.0),
+    ("a crack every 75 mm", |_| (), 75.0),
+    ("a crack every 75 mm, struts `vecchio-collins`", full, 75.0),
+    ("a crack every 100 mm", |_| (), 100.0),
+];
+
+/// Settings shown panel by panel.
+const SHOWN: usize = 2;
+
+fn full(p: &mut FixedCrackParameters) {
+    p.compression_softening = CompressionSoftening::VecchioCollins;
+}
+
+fn none(p: &mut FixedCrackParameters) {
+    p.compression_softening = CompressionSoftening::None;
+}
+
+fn damage(p: &mut FixedCrackParameters) {
+    p.shear_transfer = ShearTransfer::Damage;
+}
+
+fn large(p: &mut FixedCrackParameters) {
+    p.shear_transfer = ShearTransfer::Interlock { aggregate_mm: 19.0 };
+}
+
+fn follow(p: &mut FixedCrackParameters) {
+    p.fixing_share = 0.7;
+}
+
+fn turn(p: &mut FixedCrackParameters) {
+    p.fixing_share = 0.1;
+}
+
+fn follow_full(p: &mut FixedCrackParameters) {
+    follow(p);
+    full(p);
+}
+
+/// Ratios of model to test of all panels.
+fn ratios(change: Change, side_mm: f64) -> Result<Vec<f64>, Failure> {
+    let ratio = |test: &fe_tests::toronto::Test| {
+        let mut concrete = FixedCrackParameters {
+            shear_transfer: ShearTransfer::Interlock {
+                aggregate_mm: AGGREGATE_MM,
+            },
+            ..test.concrete()
+        };
+        change(&mut concrete);
+        test.ratio(concrete, side_mm)
+    };
+    TESTS.iter().map(ratio).collect()
+}
+
+/// Mean, and coefficient of variation of a sample.
+fn statistics(values: &[f64]) -> [f64; 2] {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let square: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
+    [mean, (square / (n - 1.0)).sqrt() / mean]
+}
+
+fn main() -> Result<(), Failure> {
+    let all = SETTINGS.map(|(_, change, side)| ratios(change, side));
+    let all = all.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let mut panels = String::from(
+        "| panel | fc, MPa | rho_x fy, MPa | rho_y fy, MPa | test, MPa | default, % | struts `vecchio-collins`, % |\n\
+         | --- | --- | --- | --- | --- | --- | --- |\n",
+    );
+    for (i, test) in TESTS.iter().enumerate() {
+        let [x, y] = test.steel.map(|s| s.ratio * s.yield_mpa);
+        let mark = match test.end {
+            End::Failure => "",
+            End::Cracking => " at cracking",
+            End::Edge => " or more",
+        };
+        write!(
+            panels,
+            "| {} | {:.1} | {x:.2} | {y:.2} | {:.2}{mark} |",
+            test.name, test.fc_mpa, test.stress_mpa
+        )?;
+        for ratios in &all[..SHOWN] {
+            write!(panels, " {:+.0} |", 100.0 * (ratios[i] - 1.0))?;
+        }
+        panels.push('\n');
+    }
+    let mut settings = String::from(
+        "| setting | mean of model over test | coefficient of variation, % | mean, alike both ways | mean, unlike |\n\
+         | --- | --- | --- | --- | --- |\n",
+    );
+    for ((name, ..), ratios) in SETTINGS.iter().zip(&all) {
+        let of = |equal: &[bool]| -> Vec<f64> {
+            let tests = TESTS.iter().zip(ratios);
+            let tests =
+                tests.filter(|(t, _)| t.end == End::Failure && equal.contains(&t.is_equal()));
+            tests.map(|(_, r)| *r).collect()
+        };
+        let [mean, variation] = statistics(&of(&[true, false]));
+        let [alike, _] = statistics(&of(&[true]));
+        let [unlike, _] = statistics(&of(&[false]));
+        writeln!(
+            settings,
+            "| {name} | {mean:.2} | {:.1} | {alike:.2} | {unlike:.2} |",
+            100.0 * variation
+        )?;
+    }
+    let source = format!(
+        "Written at commit {} by `cargo run --release -p fe-tests --bin panels`.\n",
+        commit()
+    );
+    let mut document = fs::read_to_string(DOCUMENT)?;
+    for (name, table) in [
+        ("source", source),
+        ("panels", panels),
+        ("settings", settings),
+    ] {
+        document = insert(&document, name, &table)
+            .ok_or_else(|| format!("{DOCUMENT} has no place for {name}"))?;
+    }
+    fs::write(DOCUMENT, document)?;
+    Ok(())
+}
