@@ -112,7 +112,7 @@ pub struct Cracks {
     #[arg(long, value_name = "MM", value_parser = crack_spacing, allow_negative_numbers = true)]
     pub crack_spacing_mm: Option<f64>,
 
-    /// Share of the tensile strength down to which the axes of a crack follow the strain, fixed then; without it, 1: at the onset
+    /// Share of the tensile strength down to which the axes of a crack follow the strain, fixed then, 1: at the onset; without it, that of the preset
     #[arg(long, value_name = "SHARE", value_parser = fixing_share, allow_negative_numbers = true)]
     pub fixing_share: Option<f64>,
 

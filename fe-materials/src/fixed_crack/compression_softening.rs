@@ -13,10 +13,10 @@ pub enum CompressionSoftening {
     /// reduction without their factor for high strengths; as in the guidelines of Rijkswaterstaat, RTD 1016, 2017, which
     /// stop it at 0.4: here it is not stopped). The strain of the law is an average over cracks, which open by w = l kt
     /// ([`FixedCrackParameters::crack_reach`](super::FixedCrackParameters::crack_reach)) at a spacing s.
+    #[default]
     VecchioCollins,
     /// The same with C = 0.55: for laws that count the slip of cracks, in whose tests the strain across held that of the slip
     /// too (Vecchio 2000; Wong, Vecchio and Trommels 2013, at second hand, for this form).
-    #[default]
     VecchioCollinsSlip,
 }
 

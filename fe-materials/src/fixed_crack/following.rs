@@ -8,6 +8,9 @@ use nalgebra::Vector6;
 use super::curves::Tension;
 use super::{Envelopes, FixedCrack, State};
 
+/// Share of the tensile strength up to which stresses are equal, as those of an open crack and of its sound plane are.
+const TIE: f64 = 1e-6;
+
 impl FixedCrack {
     /// Turns the axes into the principal ones of the strain, or fixes them: once the crack bridges no more than the fixing
     /// share of its strength, or where the order of the stresses in the turned axes would no longer be that of the strains. Beyond
@@ -37,7 +40,8 @@ impl FixedCrack {
             };
             secant * e[i]
         };
-        if stress(0) >= stress(1) && stress(1) >= stress(2) {
+        let tie = TIE * self.p.ft_mpa;
+        if stress(0) + tie >= stress(1) && stress(1) + tie >= stress(2) {
             state.axes = axes;
         } else {
             state.fixed = true;

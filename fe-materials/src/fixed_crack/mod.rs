@@ -93,14 +93,17 @@ pub struct FixedCrackParameters {
     pub compression_softening: CompressionSoftening,
     /// Distance of cracks s (mm), see [`Self::crack_reach`].
     pub crack_spacing_mm: f64,
-    /// Share of the strength at onset (-), in (0, 1], above which the axes of a crack follow the strain. 1: fixed at the onset.
-    /// The authors of ATENA, which has the same, advise 0.7 for large elements.
+    /// Share of the strength at onset (-), in (0, 1], above which the axes of a crack follow the strain; 1: fixed at the onset.
     pub fixing_share: f64,
 }
 
 /// Distance of cracks (mm) where none is given: the grid of the wires in the panels whose average strains gave the softening of
 /// struts (Vecchio and Collins 1982), between which they cracked (assumed).
 pub const CRACK_SPACING_MM: f64 = 50.0;
+
+/// Share of the strength down to which axes follow the strain where none is given: that advised for large elements by the authors of
+/// ATENA, which has the same.
+pub const FIXING_SHARE: f64 = 0.7;
 
 /// Largest aggregate (mm) where none is given: 3/4 inch, usual in the United States (assumed).
 pub const AGGREGATE_MM: f64 = 19.0;
@@ -127,7 +130,7 @@ impl FixedCrackParameters {
             },
             compression_softening: CompressionSoftening::default(),
             crack_spacing_mm: CRACK_SPACING_MM,
-            fixing_share: 1.0,
+            fixing_share: FIXING_SHARE,
         }
     }
 

@@ -2,7 +2,8 @@
 
 use fe_elements::{BandWidth, HexRule};
 use fe_materials::fixed_crack::{
-    AGGREGATE_MM, CRACK_SPACING_MM, CompressionSoftening, ShearTransfer, TensionSoftening,
+    AGGREGATE_MM, CRACK_SPACING_MM, CompressionSoftening, FIXING_SHARE, ShearTransfer,
+    TensionSoftening,
 };
 
 use super::default_mesh;
@@ -70,7 +71,7 @@ impl ModelSettings {
             },
             compression_softening: CompressionSoftening::default(),
             crack_spacing_mm: CRACK_SPACING_MM,
-            fixing_share: 1.0,
+            fixing_share: FIXING_SHARE,
             shear_floor: 1e-4,
             band_factor: 1.0,
             fracture_energy_factor: 1.0,
@@ -88,6 +89,7 @@ impl ModelSettings {
                 tension_softening: TensionSoftening::Linear,
                 shear_transfer: ShearTransfer::Damage,
                 compression_softening: CompressionSoftening::None,
+                fixing_share: 1.0,
                 shear_floor: 1e-3,
                 band_factor: 0.5,
                 ..plain

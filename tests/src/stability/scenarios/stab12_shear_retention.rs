@@ -6,17 +6,22 @@ use nalgebra::Vector6;
 use super::stab11_stress_locking::{BAND, Point, concrete};
 use crate::stability::{Case, Failure, Figure, Method, Scenario};
 
+/// Strain across the crack from which it slides: open so far that its axes are fixed.
+const OPEN: f64 = 1.2e-3;
+
 /// Shear stress (MPa) and energy per area (N/mm) at an opening of 5 mm, sliding as far as it opens.
 fn slide(transfer: ShearTransfer) -> Result<[f64; 2], Failure> {
     let mut point = Point::new(concrete(transfer)?);
     let (mut energy, mut last) = (0.0, 0.0);
-    // The crack is open before it slides, so that its axes are those of the strain.
-    point.stress(&Vector6::new(1.2e-4, 0.0, 0.0, 0.0, 0.0, 0.0))?;
+    for strain in [1.2e-4, OPEN] {
+        point.stress(&Vector6::new(strain, 0.0, 0.0, 0.0, 0.0, 0.0))?;
+    }
     let steps = 50_000;
+    let step = (5.0 / BAND - OPEN) / f64::from(steps);
     for i in 1..=steps {
-        let strain = 5.0 / BAND * f64::from(i) / f64::from(steps);
-        let stress = point.stress(&Vector6::new(strain, 0.0, 0.0, strain, 0.0, 0.0))?;
-        energy += 0.5 * (stress[3] + last) * 5.0 / f64::from(steps);
+        let slid = step * f64::from(i);
+        let stress = point.stress(&Vector6::new(OPEN + slid, 0.0, 0.0, slid, 0.0, 0.0))?;
+        energy += 0.5 * (stress[3] + last) * step * BAND;
         last = stress[3];
     }
     Ok([last, energy])
