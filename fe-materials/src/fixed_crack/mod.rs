@@ -1,4 +1,4 @@
-//! Fixed orthogonal smeared cracks with irreversible shear transfer: the default law of the beams.
+//! Orthogonal smeared cracks, fixed once they have opened some way, with irreversible shear transfer: the default law of the beams.
 //!
 //! **Uncracked**, the law is isotropic. With the equivalent uniaxial strains
 //! e~_i = sum_j Q_ij e_j, Q = C(E, nu)/E, of the principal strains,

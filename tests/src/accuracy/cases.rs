@@ -50,8 +50,11 @@ const BARE: &[&str] = &["A-SO3-1", "A-SO4-1", "A-SW3-1", "A-SW4-1"];
 /// A beam of each kind.
 pub const KINDS: &[&str] = &["A-SO3-1", "A-SW3-1", "A-SO3-2", "A-SW3-2"];
 
-/// Those that are also run as a slow motion.
-const MOTIONS: &[&str] = &["A-SO3-1", "A-SW3-1", "A-SO3-2", "A-SW3-2", "B-CF1"];
+/// Those that are also run as a slow motion: all whose tests are known, and one of the others.
+const MOTIONS: &[&str] = &[
+    "A-SO3-1", "A-SW3-1", "A-SO3-2", "A-SW3-2", "A-SO4-1", "A-SW4-1", "A-SO3-3", "A-SO3-4",
+    "A-SO3-5", "A-SO4-2", "A-SO4-3", "A-SW4-2", "B-CF1",
+];
 
 const fn case(
     name: &'static str,
@@ -111,7 +114,7 @@ pub const NUMERICS: [Case; 10] = [
 ];
 
 /// Parameters of the law, one at a time by 20 %.
-pub const PARAMETERS: [Case; 10] = [
+pub const PARAMETERS: [Case; 12] = [
     case(
         "gf-down",
         "fracture energy",
@@ -150,6 +153,8 @@ pub const PARAMETERS: [Case; 10] = [
         "--crack-spacing-mm 60",
         KNOWN,
     ),
+    case("fixing-down", "fixing share", "--fixing-share 0.56", KNOWN),
+    case("fixing-up", "fixing share", "--fixing-share 0.84", KNOWN),
     case("band-down", "band width", "--band-factor 0.8", KNOWN),
     case("band-up", "band width", "--band-factor 1.2", KNOWN),
 ];
