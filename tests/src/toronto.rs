@@ -72,7 +72,7 @@ const fn test(
     }
 }
 
-/// All panels under monotonic pure shear but PV1, PV14 and PV15, which the testing machine ended.
+/// Panels under monotonic pure shear; PV1, PV14 and PV15 are left out, of which no load at failure is at hand.
 pub const TESTS: [Test; 20] = [
     test(
         "PV2",
