@@ -3,8 +3,8 @@
 
 pub mod embedded_bar;
 pub mod hex20;
-pub mod input;
-mod installed;
+mod input;
+pub mod installed;
 mod kernel;
 pub mod led;
 pub mod linear;

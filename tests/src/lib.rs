@@ -10,6 +10,7 @@ pub mod conditions;
 pub mod cube;
 pub mod delamination;
 pub mod dense;
+pub mod document;
 pub mod driven;
 pub mod figure;
 pub mod follow;

@@ -44,30 +44,21 @@ impl FixedCrack {
         state.fixed |= state.second || self.p.fixing_share >= 1.0;
         let growing = |growth: f64| if growth > 0.0 { ctx.relaxation } else { 0.0 };
         retention.growing = grow_t.map(growing);
-        if turning {
-            // Isotropic in the plane of the crack: the axis that is compressed more, the last one, speaks for both.
-            state.kc[2] = state.kc[1].max(state.kc[2]);
-        }
-        if following {
-            // Isotropic altogether.
-            state.kc[2] = state.kc[0].max(state.kc[2]);
-        }
+        // Isotropic in the axes that turn: the one that is compressed most, the last, speaks for all.
+        let turned = match (following, turning) {
+            (true, _) => 0,
+            (_, true) => 1,
+            _ => 2,
+        };
+        state.kc[2] = state.kc[turned..].iter().copied().fold(0.0, f64::max);
         let grow_c: [f64; 3] = std::array::from_fn(|i| -e[i] - state.kc[i]);
         for (k, growth) in state.kc.iter_mut().zip(grow_c) {
             *k += ctx.relaxation * growth.max(0.0);
         }
-        if turning {
-            state.kc[1] = state.kc[2];
-        }
-        if following {
-            state.kc[0] = state.kc[2];
-        }
+        let last = state.kc[2];
+        state.kc[turned..].fill(last);
         for i in 0..3 {
-            let pressed = match (following, turning) {
-                (true, _) => 2,
-                (_, true) => [0, 2, 2][i],
-                _ => i,
-            };
+            let pressed = if i >= turned { 2 } else { i };
             state.crushing = state.crushing.max(compression.crushing(state.kc[i]));
             let (soft, soft_slopes) = self.softening(&state.kt, i, ctx.band_width);
             let (bridged, by_kt) = tension[i].secant(state.kt[i]);
@@ -110,7 +101,7 @@ impl FixedCrack {
                 continue;
             }
             d.set_row(row, &shear.tangent[k].transpose());
-            if onset || following || (turning && k == 1) {
+            if onset || i.min(j) >= turned {
                 // The axes turn with the strain: stress and strain stay coaxial.
                 let gap = e[i] - e[j];
                 d[(row, row)] = if gap.abs() > 1e-9 * e.amax() {

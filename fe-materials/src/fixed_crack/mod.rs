@@ -159,16 +159,13 @@ impl FixedCrackParameters {
         if !(0.0..0.5).contains(&self.poisson) {
             return Err(out_of_range("poisson", self.poisson, "-", "[0, 0.5)"));
         }
-        if !(self.shear_floor > 0.0 && self.shear_floor <= 1.0) {
-            return Err(out_of_range("shear_floor", self.shear_floor, "-", "(0, 1]"));
-        }
-        if !(self.fixing_share > 0.0 && self.fixing_share <= 1.0) {
-            return Err(out_of_range(
-                "fixing_share",
-                self.fixing_share,
-                "-",
-                "(0, 1]",
-            ));
+        for (parameter, share) in [
+            ("shear_floor", self.shear_floor),
+            ("fixing_share", self.fixing_share),
+        ] {
+            if !(share > 0.0 && share <= 1.0) {
+                return Err(out_of_range(parameter, share, "-", "(0, 1]"));
+            }
         }
         self.shear_transfer.check()?;
         let plasticity = self.young_mpa * self.eps_c1 / self.fcm_mpa;

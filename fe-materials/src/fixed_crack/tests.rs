@@ -440,11 +440,11 @@ fn conforms() {
         compression_softening: CompressionSoftening::None,
         ..parameters()
     };
-    let following = FixedCrackParameters {
-        fixing_share: 0.3,
+    let fixing = |fixing_share| FixedCrackParameters {
+        fixing_share,
         ..parameters()
     };
-    for p in [parameters(), plain, following] {
+    for p in [parameters(), plain, fixing(0.3), fixing(1.0)] {
         for amplitude in [1e-3, 1e-2] {
             let check = MaterialCheck {
                 paths: 2500,

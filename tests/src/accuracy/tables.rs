@@ -194,34 +194,10 @@ pub fn sensitivities(outcomes: &Outcomes, cases: &[Case]) -> String {
     text
 }
 
-/// Puts `table` between the lines `<!-- name -->` and `<!-- end -->` of a document. None if it lacks them.
-pub fn insert(document: &str, name: &str, table: &str) -> Option<String> {
-    let begin = format!("<!-- {name} -->\n");
-    let start = document.find(&begin)? + begin.len();
-    let end = start + document[start..].find("<!-- end -->")?;
-    Some(format!(
-        "{}\n{table}\n{}",
-        &document[..start],
-        &document[end..]
-    ))
-}
-
 #[cfg(test)]
 mod tests {
-    //! Protects the text around tables.
+    //! Protects the form of changes.
     use super::*;
-
-    #[test]
-    fn a_table_replaces_the_one_before() {
-        let document = "a\n<!-- x -->\nold\n<!-- end -->\nb\n<!-- y -->\n<!-- end -->\n";
-        let once = insert(document, "x", "new\n").unwrap();
-        assert_eq!(once, insert(&once, "x", "new\n").unwrap());
-        assert!(
-            once.contains("<!-- x -->\n\nnew\n\n<!-- end -->\nb\n"),
-            "{once}"
-        );
-        assert!(insert(document, "z", "").is_none());
-    }
 
     #[test]
     fn no_change_has_no_sign_of_a_fall() {

@@ -13,9 +13,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use fe_tests::accuracy::cases::{Case, DEFAULT, NUMERICS, PARAMETERS, TWICE};
 use fe_tests::accuracy::cost;
 use fe_tests::accuracy::outcome::Outcome;
-use fe_tests::accuracy::tables::{
-    Outcomes, beams, changes, coverage, insert, sensitivities, statistics,
-};
+use fe_tests::accuracy::tables::{Outcomes, beams, changes, coverage, sensitivities, statistics};
+use fe_tests::document::fill;
 use fe_tests::provenance::commit;
 
 const DOCUMENT: &str = "docs/accuracy.md";
@@ -45,7 +44,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     let source = format!("Written at commit {} by `tests/accuracy.sh`.\n", commit());
-    let mut document = fs::read_to_string(DOCUMENT)?;
     let any = |cases: &[Case]| {
         let mut names = outcomes.keys().map(|(name, _)| name);
         names.any(|name| cases.iter().any(|case| case.name == *name))
@@ -66,12 +64,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if any(&PARAMETERS) {
         tables.push(("parameters", sensitivities(&outcomes, &PARAMETERS)));
     }
-    for (name, table) in tables {
-        document = insert(&document, name, &table)
-            .ok_or_else(|| format!("{DOCUMENT} has no place for {name}"))?;
-    }
-    fs::write(DOCUMENT, document)?;
-    Ok(())
+    fill(DOCUMENT, tables)
 }
 
 /// Runs all, as many at once as there are cores, the first of them first.

@@ -3,9 +3,9 @@
 //! Usage: `insert DOCUMENT NAME`
 
 use std::error::Error;
-use std::{env, fs, io};
+use std::{env, io};
 
-use fe_tests::accuracy::tables::insert;
+use fe_tests::document::fill;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -13,8 +13,5 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("usage: insert DOCUMENT NAME".into());
     };
     let text = io::read_to_string(io::stdin())?;
-    let filled = insert(&fs::read_to_string(document)?, name, &text)
-        .ok_or_else(|| format!("{document} has no place for {name}"))?;
-    fs::write(document, filled)?;
-    Ok(())
+    fill(document, [(name.as_str(), text)])
 }

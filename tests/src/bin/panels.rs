@@ -3,13 +3,12 @@
 //! `cargo run --release -p fe-tests --bin panels`
 
 use std::fmt::Write as _;
-use std::fs;
 
 use fe_materials::fixed_crack::{CompressionSoftening, FixedCrackParameters, ShearTransfer};
-use fe_tests::accuracy::tables::insert;
 use fe_tests::cube::Failure;
+use fe_tests::document::fill;
 use fe_tests::provenance::commit;
-use fe_tests::toronto::{AGGREGATE_MM, End, SPACING_MM, TESTS};
+use fe_tests::toronto::{AGGREGATE_MM, End, SPACING_MM, TESTS, Test};
 
 const DOCUMENT: &str = "docs/panels.md";
 
@@ -74,7 +73,7 @@ fn large(p: &mut FixedCrackParameters) {
 
 /// Ratios of model to test of all panels.
 fn ratios(change: Change, side_mm: f64) -> Result<Vec<f64>, Failure> {
-    let ratio = |test: &fe_tests::toronto::Test| {
+    let ratio = |test: &Test| {
         let mut concrete = FixedCrackParameters {
             shear_transfer: ShearTransfer::Interlock {
                 aggregate_mm: AGGREGATE_MM,
@@ -143,15 +142,10 @@ fn main() -> Result<(), Failure> {
         "Written at commit {} by `cargo run --release -p fe-tests --bin panels`.\n",
         commit()
     );
-    let mut document = fs::read_to_string(DOCUMENT)?;
-    for (name, table) in [
+    let tables = [
         ("source", source),
         ("panels", panels),
         ("settings", settings),
-    ] {
-        document = insert(&document, name, &table)
-            .ok_or_else(|| format!("{DOCUMENT} has no place for {name}"))?;
-    }
-    fs::write(DOCUMENT, document)?;
-    Ok(())
+    ];
+    fill(DOCUMENT, tables)
 }
