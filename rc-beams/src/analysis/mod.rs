@@ -35,8 +35,8 @@ pub struct Stepping {
 
 /// Longest step over the first one.
 const LONGEST: f64 = 2.0;
-/// First step over the shortest one.
-const SHORTEST: f64 = 4.0;
+/// First step over the shortest one, from where on shorter ones place snaps no better.
+const SHORTEST: f64 = 16.0;
 /// Iterations a step should take.
 const DESIRED: usize = 8;
 /// Bounds of the change from one step to the next.

@@ -9,7 +9,8 @@
 //!   share* is that of the diagonal cracks in shear spans in the sum of these and of the vertical cracks
 //!   between the spans. Vertical cracks in a shear span count only if bars yield: along elastic bars they
 //!   open as the lower part of an inclined crack;
-//! - *yield*: a longitudinal bar reaches its yield stress by the peak;
+//! - *yield*: a longitudinal bar reaches its yield stress by the peak. It brings no load down by itself: where the
+//!   diagonal share is at least 0.6 it does not count;
 //! - *softened web*: share of the middle half of the height, in one shear span, whose concrete is past its
 //!   compressive strength at the peak;
 //! - *growth of crushing*: sum of volume times increase of crushing over the drop, as a share of the volume.
@@ -20,7 +21,8 @@
 //! | below 5 % | | otherwise | | | none |
 //! | | yes | below 10 % | at most 0.4 | | flexure |
 //! | | no | at least 10 % | | | shear (web crushing) |
-//! | | no | below 10 % | at least 0.6 | | shear (diagonal tension) |
+//! | | yes | at least 10 % | at least 0.6 | | shear (web crushing) |
+//! | | | below 10 % | at least 0.6 | | shear (diagonal tension) |
 //! | | no | below 10 % | at most 0.4 | at least 0.1 % | concrete crushing |
 //! | | | otherwise | | | undecided |
 //!
@@ -193,10 +195,15 @@ impl Measures {
         })
     }
 
+    /// Whether bars yield and diagonal cracks do not govern.
+    fn bends(&self) -> bool {
+        self.yielded && self.diagonal_share < DIAGONAL_GOVERNS
+    }
+
     fn mode(&self) -> FailureMode {
         let softened = self.softened_web >= SOFTENED_WEB;
         let minor = self.diagonal_share <= DIAGONAL_MINOR;
-        match (self.yielded, softened) {
+        match (self.bends(), softened) {
             (true, false) if minor => FailureMode::Flexure,
             (false, true) => FailureMode::WebCrushing,
             (false, false) if self.diagonal_share >= DIAGONAL_GOVERNS => {

@@ -133,6 +133,16 @@ fn yield_with_vertical_cracks_is_flexure() {
 }
 
 #[test]
+fn bars_that_yield_where_diagonal_cracks_govern_do_not_hide_shear() {
+    let (mut before, mut end) = (peak(), peak());
+    before.bars[1].utilisation = 1.0;
+    open(&mut end, 24, 45.0);
+    assert_eq!(mode(&before, &end), FailureMode::DiagonalTension);
+    before.concrete[24].crushing = 0.1;
+    assert_eq!(mode(&before, &end), FailureMode::WebCrushing);
+}
+
+#[test]
 fn a_web_past_its_strength_at_the_peak_is_web_crushing_whatever_opens_later() {
     let (mut before, mut end) = (peak(), peak());
     before.concrete[24].crushing = 0.1;
@@ -155,9 +165,9 @@ fn conflicting_or_missing_evidence_is_undecided() {
     let (mut before, mut end) = (peak(), peak());
     assert_eq!(mode(&before, &end), FailureMode::Undecided);
     open(&mut end, 24, 45.0);
-    before.bars[1].utilisation = 1.0;
-    assert_eq!(mode(&before, &end), FailureMode::Undecided);
     open(&mut end, 15, 0.0);
-    before.bars[1].utilisation = 0.6;
+    assert_eq!(mode(&before, &end), FailureMode::Undecided);
+    before.concrete[24].crushing = 0.1;
+    before.bars[1].utilisation = 1.0;
     assert_eq!(mode(&before, &end), FailureMode::Undecided);
 }

@@ -11,18 +11,18 @@
 //! - *ratio*: peak of the same beam with perfect bond over that of the beam, where it is known. At least
 //!   1.15, bond governs; at most 1.08, concrete does.
 //!
-//! A span that carries no sheet fails by the rules for bare beams. Else the first row that fits counts; rows 5 to 8
+//! *No yield* includes bars that yield where diagonal cracks govern, see [`super`]. A span that carries no sheet fails by the rules for bare beams. Else the first row that fits counts; rows 5 to 8
 //! need a drop to 0.8 of the peak.
 //!
 //! | | evidence | mode |
 //! |---|---|---|
 //! | 1 | load falls by less than 5 % | the same as for bare beams: flexure or none |
 //! | 2 | utilisation at least 1 | sheet rupture |
-//! | 3 | loss at least 40 %, debonded at least 35 %, no bar yields, softened web below 10 %, ratio not at most 1.08 | debonding |
+//! | 3 | loss at least 40 %, debonded at least 35 %, no yield, softened web below 10 %, ratio not at most 1.08 | debonding |
 //! | 4 | loss below 40 % or debonded below 35 %; the rule for flexure of bare beams | flexure |
-//! | 5 | loss at most 25 %, no bar yields, softened web at least 10 %, ratio not at least 1.15 | shear (web crushing) |
-//! | 6 | loss at most 25 %, no bar yields, the rule for crushing of bare beams, ratio not at least 1.15 | concrete crushing |
-//! | 7 | loss at most 25 %, no bar yields, ratio not at least 1.15 | concrete splitting |
+//! | 5 | loss at most 25 %, no yield, softened web at least 10 %, ratio not at least 1.15 | shear (web crushing) |
+//! | 6 | loss at most 25 %, no yield, the rule for crushing of bare beams, ratio not at least 1.15 | concrete crushing |
+//! | 7 | loss at most 25 %, no yield, ratio not at least 1.15 | concrete splitting |
 //! | 8 | otherwise | mixed |
 //! | 9 | otherwise, without a drop to 0.8 of the peak | undecided |
 //!
@@ -112,11 +112,11 @@ fn mode(measures: &Measures, bond: &Bond<'_>, capacity: &Capacity) -> FailureMod
     let minor = measures.diagonal_share <= DIAGONAL_MINOR;
     let bond_governs = bond.ratio.is_some_and(|r| r >= BOND_GOVERNS);
     let concrete_governs = bond.ratio.is_some_and(|r| r <= CONCRETE_GOVERNS);
-    let stays = loss <= BONDED_LOSS && !measures.yielded && !bond_governs;
+    let stays = loss <= BONDED_LOSS && !measures.bends() && !bond_governs;
     let bends = measures.mode() == FailureMode::Flexure;
     if bond.sheets.utilisation >= 1.0 {
         FailureMode::SheetRupture
-    } else if debonds && !measures.yielded && !softened && !concrete_governs {
+    } else if debonds && !measures.bends() && !softened && !concrete_governs {
         FailureMode::Debonding
     } else if !debonds && bends {
         FailureMode::Flexure

@@ -106,6 +106,17 @@ fn yielding_bars_with_vertical_cracks_are_flexure_unless_the_bond_fails_too() {
 }
 
 #[test]
+fn yield_where_diagonal_cracks_govern_leaves_the_choice_between_bond_and_concrete() {
+    let mut states = states();
+    states.0.bars[1].utilisation = 1.0;
+    let found = [0.1, 0.6].map(|share| judge(&states, &drop(share, share), None));
+    assert_eq!(
+        found,
+        [FailureMode::ConcreteSplitting, FailureMode::Debonding]
+    );
+}
+
+#[test]
 fn crushing_behind_bonded_sheets_keeps_its_place() {
     let mut web = states();
     web.0.concrete[24].crushing = 0.1;
