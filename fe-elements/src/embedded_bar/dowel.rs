@@ -128,6 +128,17 @@ impl Dowel {
         Ok(self)
     }
 
+    /// The dowel of `count` such bars in one place.
+    #[must_use]
+    pub fn times(mut self, count: u32) -> Self {
+        let count = f64::from(count);
+        self.stiffness_n *= count;
+        if let Some(strength) = &mut self.strength {
+            strength.free_n *= count;
+        }
+        self
+    }
+
     /// V per unit of shear strain (N) before the bar slides.
     pub(super) const fn stiffness(&self) -> f64 {
         self.stiffness_n
@@ -219,6 +230,16 @@ mod tests {
         }
         let secant = (at(200.001).force - at(199.999).force) / 0.002;
         assert!((at(200.0).by_axial - secant).abs() < 1e-6 * secant.abs());
+    }
+
+    /// Two bars in one place give twice the force of one, before they slide and after.
+    #[test]
+    fn bars_in_one_place_add_up() {
+        let (one, two) = (bounded(), bounded().times(2));
+        for shear in [1e-6, 1.0] {
+            let [one, two] = [one, two].map(|dowel| dowel.at(shear, 0.0, 100.0));
+            assert_eq!((two.force, two.slid), (2.0 * one.force, one.slid));
+        }
     }
 
     /// Thin bars in strong concrete shear off: V_0 is no more than A fy/sqrt(3).

@@ -78,24 +78,25 @@ fn bars(
     settings: &ModelSettings,
 ) -> Result<Vec<(Bar, Option<BondSlipBar>, BarRecord)>, BuildError> {
     let mut bars = Vec::new();
-    let stock = |area_mm2: f64, diameter: f64, steel: &Steel| -> Result<Stock, BuildError> {
+    let stock = |count: u8, area: f64, diameter: f64, steel: &Steel| -> Result<_, BuildError> {
+        let dowel = dowel(specimen, settings, diameter, steel)?;
         Ok(Stock {
-            area_mm2,
+            area_mm2: f64::from(count) * area,
             fy_mpa: steel.fy_mpa.get(),
             law: law(steel)?,
-            dowel: dowel(specimen, settings, diameter, steel)?,
+            dowel: dowel.map(|one| one.times(u32::from(count))),
         })
     };
     for b in &specimen.bars {
-        let area = b.area_mm2.get() * f64::from(b.count_in_half.get());
-        let stock = stock(area, b.diameter_mm.get(), &b.steel)?;
+        let count = b.count_in_half.get();
+        let stock = stock(count, b.area_mm2.get(), b.diameter_mm.get(), &b.steel)?;
         let at = |x: f64| [x, b.axis.y_mm.get(), b.axis.z_mm.get()];
         let ends = [at(b.axis.x_from_mm.get()), at(b.axis.x_to_mm.get())];
         let (bar, record) = stock.bar(b.name.clone(), BarKind::Longitudinal, ends);
         bars.push((bar, slipping::bond(specimen, settings, b)?, record));
     }
     if let Some(s) = &specimen.stirrups {
-        let stock = stock(s.area_mm2.get(), s.diameter_mm.get(), &s.steel)?;
+        let stock = stock(1, s.area_mm2.get(), s.diameter_mm.get(), &s.steel)?;
         for x in s.positions() {
             let leg = &s.shape.vertical;
             let ends = [&leg.y_from_mm, &leg.y_to_mm].map(|y| [x, y.get(), leg.z_mm.get()]);

@@ -1,5 +1,7 @@
 //! Protects the models: what the elements hold must be what the specimen says.
 
+use fe_core::element::EvaluationContext;
+use fe_core::material::Operator;
 use fe_core::state::StateStore;
 use fe_solver::control::StepControl;
 use fe_solver::recorder::{Continue, Recorder, StepView};
@@ -43,6 +45,34 @@ fn the_supports_carry_the_weight() {
     let weight = 2.0 * reactions.iter().sum::<f64>();
     assert!((weight - 3477.0).abs() < 1.0, "{weight}");
     assert!((beam.measures.load_kn(&reactions) - 3.477).abs() < 1e-3);
+}
+
+/// Two bars given as one entry resist like two entries, along and, by their dowels, across. Target: rounding.
+#[test]
+fn bars_in_one_place_add_up() {
+    let mut twice = specimen("A-SO3-1");
+    let mut copy = twice.bars[1].clone();
+    copy.name.push_str(" again");
+    let mut double = twice.clone();
+    twice.bars.push(copy);
+    double.bars[1].count_in_half = 2.try_into().unwrap();
+    let force = |specimen: &Specimen| {
+        let beam = Beam::new(specimen, &ModelSettings::new(Preset::Physical, specimen)).unwrap();
+        let mut state = StateStore::new(beam.model.elements());
+        let moved: Vec<f64> = (0..beam.model.dofs().len())
+            .map(|d| (d as f64).sin())
+            .collect();
+        let weight = beam.weight.clone();
+        let mut stage = Stage::new(&beam.model, weight, &mut state, moved.clone()).unwrap();
+        stage
+            .residual(&moved, 0.0, &EvaluationContext::new(Operator::None))
+            .unwrap()
+    };
+    let (twice, double) = (force(&twice), force(&double));
+    let largest = twice.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+    for (a, b) in twice.iter().zip(&double) {
+        assert!((a - b).abs() < 1e-12 * largest, "{a} {b}");
+    }
 }
 
 /// Every specimen builds on its mesh: full columns of concrete, no more than in an even grid (and a stub), bars of the
