@@ -20,6 +20,7 @@ pub mod manual;
 pub mod mesh;
 pub mod panel;
 pub mod provenance;
+pub mod sample;
 pub mod shell;
 pub mod softening_bar;
 pub mod solve;

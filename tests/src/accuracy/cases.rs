@@ -36,10 +36,11 @@ impl Case {
     }
 }
 
-const ALL: [&str; 21] = [
+/// All beams, in the order of tables.
+pub const ALL: [&str; 21] = [
     "A-SO3-1", "A-SO4-1", "A-SW3-1", "A-SW4-1", "A-SO3-2", "A-SO3-3", "A-SO3-4", "A-SO3-5",
-    "A-SO4-2", "A-SO4-3", "A-SW3-2", "A-SW4-2", "B-CO1", "B-CO2", "B-CO3", "B-CF1", "B-CF2",
-    "B-CF3", "B-CF4", "B-CW1", "B-CW2",
+    "A-SO4-2", "A-SO4-3", "A-SW3-2", "A-SW4-2", "B-CF1", "B-CF2", "B-CF3", "B-CF4", "B-CO1",
+    "B-CO2", "B-CO3", "B-CW1", "B-CW2",
 ];
 
 /// Beams whose tests are known.
@@ -51,10 +52,7 @@ const BARE: &[&str] = &["A-SO3-1", "A-SO4-1", "A-SW3-1", "A-SW4-1"];
 pub const KINDS: &[&str] = &["A-SO3-1", "A-SW3-1", "A-SO3-2", "A-SW3-2"];
 
 /// Those that are also run as a slow motion: all whose tests are known, and one of the others.
-const MOTIONS: &[&str] = &[
-    "A-SO3-1", "A-SW3-1", "A-SO3-2", "A-SW3-2", "A-SO4-1", "A-SW4-1", "A-SO3-3", "A-SO3-4",
-    "A-SO3-5", "A-SO4-2", "A-SO4-3", "A-SW4-2", "B-CF1",
-];
+const MOTIONS: &[&str] = ALL.split_at(13).0;
 
 const fn case(
     name: &'static str,
@@ -113,6 +111,32 @@ pub const NUMERICS: [Case; 10] = [
     case("explicit", "slow motion", "--driver explicit", MOTIONS),
 ];
 
+/// Meshes of nearly the size of the default's.
+pub const COARSE: [Case; 5] = [
+    mesh("mesh-52x4", "--mesh 52x4", "--mesh 52x6"),
+    mesh("mesh-56x4", "--mesh 56x4", "--mesh 56x6"),
+    mesh("mesh-60x4", "--mesh 60x4", "--mesh 60x6"),
+    mesh("mesh-64x4", "--mesh 64x4", "--mesh 64x6"),
+    mesh("mesh-68x4", "--mesh 68x4", "--mesh 68x6"),
+];
+
+/// Meshes with half as many elements again along and up.
+pub const FINE: [Case; 5] = [
+    mesh("mesh-80x6", "--mesh 80x6", "--mesh 80x9"),
+    mesh("mesh-84x6", "--mesh 84x6", "--mesh 84x9"),
+    mesh("mesh-90x6", "--mesh 90x6", "--mesh 90x9"),
+    mesh("mesh-92x6", "--mesh 92x6", "--mesh 92x9"),
+    mesh("mesh-96x6", "--mesh 96x6", "--mesh 96x9"),
+];
+
+/// A beam of each kind on another mesh.
+const fn mesh(name: &'static str, bare: &'static str, sheets: &'static str) -> Case {
+    Case {
+        with_sheets: Some(sheets),
+        ..case(name, "another mesh", bare, KINDS)
+    }
+}
+
 /// Parameters of the law, one at a time by 20 %.
 pub const PARAMETERS: [Case; 12] = [
     case(
@@ -166,8 +190,9 @@ mod tests {
 
     #[test]
     fn names_are_distinct() {
-        let mut names: Vec<&str> = NUMERICS.iter().chain(&PARAMETERS).map(|c| c.name).collect();
-        names.push(DEFAULT.name);
+        let cases = NUMERICS.iter().chain(&PARAMETERS);
+        let cases = cases.chain(&COARSE).chain(&FINE).chain([&DEFAULT, &TWICE]);
+        let mut names: Vec<&str> = cases.map(|c| c.name).collect();
         let count = names.len();
         names.sort_unstable();
         names.dedup();

@@ -3,4 +3,5 @@
 pub mod cases;
 pub mod cost;
 pub mod outcome;
+pub mod scatter;
 pub mod tables;

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use super::cases::{Case, DEFAULT, KNOWN, TWICE};
+use super::cases::{ALL, Case, DEFAULT, KNOWN, TWICE};
 use super::outcome::Outcome;
 
 /// Results by case and beam.
 pub type Outcomes = BTreeMap<(&'static str, &'static str), Outcome>;
 
-fn percent(share: Option<f64>) -> String {
+pub(super) fn percent(share: Option<f64>) -> String {
     share.map_or_else(String::new, |s| {
         let text = format!("{:+.1}", 100.0 * s);
         if text == "-0.0" { "+0.0".into() } else { text }
@@ -141,12 +141,8 @@ fn errors(outcomes: &Outcomes, case: &'static str) -> Vec<f64> {
 
 /// Change of the peak (%) by each case against the default, by beam.
 pub fn changes(outcomes: &Outcomes, cases: &[Case]) -> String {
-    let mut beams: Vec<&'static str> = Vec::new();
-    for beam in cases.iter().flat_map(|c| c.beams) {
-        if !beams.contains(beam) {
-            beams.push(beam);
-        }
-    }
+    let concerned = |beam: &&str| cases.iter().any(|c| c.beams.contains(beam));
+    let beams: Vec<&'static str> = ALL.into_iter().filter(concerned).collect();
     let mut text = header(&[&["", "options"], beams.as_slice()].concat());
     for case in cases {
         let cells = beams.iter().map(|beam| {

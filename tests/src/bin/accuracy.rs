@@ -10,10 +10,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use fe_tests::accuracy::cases::{Case, DEFAULT, NUMERICS, PARAMETERS, TWICE};
-use fe_tests::accuracy::cost;
+use fe_tests::accuracy::cases::{COARSE, Case, DEFAULT, FINE, NUMERICS, PARAMETERS, TWICE};
 use fe_tests::accuracy::outcome::Outcome;
 use fe_tests::accuracy::tables::{Outcomes, beams, changes, coverage, sensitivities, statistics};
+use fe_tests::accuracy::{cost, scatter};
 use fe_tests::document::fill;
 use fe_tests::provenance::commit;
 
@@ -31,6 +31,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let runs: Vec<(&Case, &'static str)> = [&DEFAULT, &TWICE]
         .into_iter()
         .chain(&NUMERICS)
+        .chain(&COARSE)
+        .chain(&FINE)
         .chain(&PARAMETERS)
         .flat_map(|case| case.beams.iter().map(move |beam| (case, *beam)))
         .collect();
@@ -60,6 +62,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         tables.push(("numerics", changes(&outcomes, &NUMERICS)));
         tables.push(("cost", cost::table(&outcomes)));
         fs::write(CHART, cost::chart(&outcomes)?)?;
+    }
+    if any(&FINE) {
+        tables.push(("scatter", scatter::table(&outcomes)));
     }
     if any(&PARAMETERS) {
         tables.push(("parameters", sensitivities(&outcomes, &PARAMETERS)));

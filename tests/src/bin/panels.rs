@@ -8,6 +8,7 @@ use fe_materials::fixed_crack::{CompressionSoftening, FixedCrackParameters, Shea
 use fe_tests::cube::Failure;
 use fe_tests::document::fill;
 use fe_tests::provenance::commit;
+use fe_tests::sample::mean_and_variation;
 use fe_tests::toronto::{AGGREGATE_MM, End, SPACING_MM, TESTS, Test};
 
 const DOCUMENT: &str = "docs/panels.md";
@@ -86,14 +87,6 @@ fn ratios(change: Change, side_mm: f64) -> Result<Vec<f64>, Failure> {
     TESTS.iter().map(ratio).collect()
 }
 
-/// Mean, and coefficient of variation of a sample.
-fn statistics(values: &[f64]) -> [f64; 2] {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let square: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
-    [mean, (square / (n - 1.0)).sqrt() / mean]
-}
-
 fn main() -> Result<(), Failure> {
     let all = SETTINGS.map(|(_, change, side)| ratios(change, side));
     let all = all.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -129,9 +122,9 @@ fn main() -> Result<(), Failure> {
                 tests.filter(|(t, _)| t.end == End::Failure && equal.contains(&t.is_equal()));
             tests.map(|(_, r)| *r).collect()
         };
-        let [mean, variation] = statistics(&of(&[true, false]));
-        let [alike, _] = statistics(&of(&[true]));
-        let [unlike, _] = statistics(&of(&[false]));
+        let [mean, variation] = mean_and_variation(&of(&[true, false]));
+        let [alike, _] = mean_and_variation(&of(&[true]));
+        let [unlike, _] = mean_and_variation(&of(&[false]));
         writeln!(
             settings,
             "| {name} | {mean:.2} | {:.1} | {alike:.2} | {unlike:.2} |",

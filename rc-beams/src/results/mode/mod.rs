@@ -117,15 +117,24 @@ impl Diagnosis {
         let held = measures.mode_without_drop(capacity);
         Self {
             mode: held.unwrap_or_else(|| measures.mode()),
-            mode_evidence: format!(
-                "load falls by {:.1} %; {measures}; {} of {} stirrups yield",
-                100.0 * capacity.post_peak_drop,
-                end.stirrups_yielded,
-                layout.stirrups
-            ),
+            mode_evidence: evidence(capacity, &measures, (end, layout)),
             counterfactual_ratio: None,
         }
     }
+}
+
+/// One line that says why, around what was found.
+fn evidence(
+    capacity: &Capacity,
+    found: &dyn fmt::Display,
+    (end, layout): (&Snapshot, &Layout),
+) -> String {
+    format!(
+        "load falls by {:.1} %; {found}; {} of {} stirrups yield",
+        100.0 * capacity.post_peak_drop,
+        end.stirrups_yielded,
+        layout.stirrups
+    )
 }
 
 /// The measures of the module, each with where it is largest.

@@ -34,7 +34,9 @@ use std::fmt;
 
 use fe_solver::capacity::Capacity;
 
-use super::{CRUSHING_GROWTH, DIAGONAL_MINOR, Diagnosis, FailureMode, Measures, SOFTENED_WEB};
+use super::{
+    CRUSHING_GROWTH, DIAGONAL_MINOR, Diagnosis, FailureMode, Measures, SOFTENED_WEB, evidence,
+};
 use crate::results::evidence::{Layout, Snapshot};
 use crate::results::sheets::{SheetDrop, SpanDrop};
 
@@ -78,12 +80,7 @@ impl Diagnosis {
         };
         Self {
             mode: mode(&measures, &bond, capacity),
-            mode_evidence: format!(
-                "load falls by {:.1} %; {bond}; {measures}; {} of {} stirrups yield",
-                100.0 * capacity.post_peak_drop,
-                end.stirrups_yielded,
-                layout.stirrups
-            ),
+            mode_evidence: evidence(capacity, &format_args!("{bond}; {measures}"), (end, layout)),
             counterfactual_ratio: ratio,
         }
     }
