@@ -282,7 +282,10 @@ impl StepControl {
 
     /// Length aimed at after an accepted step.
     fn next_length(&self, length: f64, longest: f64, done: &Done) -> f64 {
-        let wanted = self.desired as f64 / done.iterations.max(1) as f64;
+        let Some(iterations) = done.iterations else {
+            return length;
+        };
+        let wanted = self.desired as f64 / iterations.max(1) as f64;
         let growth = if done.converged { self.growth } else { 1.0 };
         let factor = wanted.sqrt().clamp(self.shrinkage.min(growth), growth);
         let next = done.taken * factor;
@@ -361,7 +364,7 @@ impl StepControl {
             flagged: !attempt.converged,
             negative_pivots: signs.map(|signs| signs.negative),
             critical,
-            kinetic: attempt.means.map(|m| m.kinetic),
+            kinetic: attempt.means.as_ref().map(|m| m.kinetic),
             viscous: attempt.lag.map(|lag| lag.viscous),
             stage,
         };
@@ -369,7 +372,7 @@ impl StepControl {
             verdict: recorder.step(&view)?,
             taken,
             converged: attempt.converged,
-            iterations: attempt.iterations,
+            iterations: attempt.means.is_none().then_some(attempt.iterations),
         })
     }
 
@@ -427,7 +430,8 @@ struct Done {
     verdict: Continue,
     taken: f64,
     converged: bool,
-    iterations: usize,
+    /// None where the path is a motion, whose steps need none.
+    iterations: Option<usize>,
 }
 
 impl Done {

@@ -37,7 +37,7 @@ pub struct ExplicitSettings {
 impl Default for ExplicitSettings {
     fn default() -> Self {
         Self {
-            periods: 5.0,
+            periods: 7.0,
             damping: 0.15,
             time_step: 1.8,
             ramp: 1.0,
