@@ -5,7 +5,8 @@
 //! 0.8 of it, in the span that fails: the shear span in which the diagonal cracks grow most, the test span where
 //! none grow. Measures, beside those of [`super`]:
 //!
-//! - *loss*: of the force SVf ([`SpanReading::force_kn`](crate::results::sheets::SpanReading)), relative to the peak;
+//! - *loss*: of the force SVf ([`SpanReading::force_kn`](crate::results::sheets::SpanReading)), relative to the peak; all
+//!   of it where 90 % of the load are lost, as what is left is a motion, no equilibrium that forces could be read from;
 //! - *debonded*: share of the side of the span at the end of the drop;
 //! - *utilisation*: largest of any sheet up to the peak;
 //! - *ratio*: peak of the same beam with perfect bond over that of the beam, where it is known. At least
@@ -44,6 +45,8 @@ use crate::results::sheets::{SheetDrop, SpanDrop};
 pub const DEBONDING_LOSS: f64 = 0.40;
 /// Debonded share of the side from which it is debonding.
 pub const DEBONDING_SHARE: f64 = 0.35;
+/// Fall of the load from which the force of the sheets is lost too.
+pub const LOST: f64 = 0.90;
 /// Loss of sheet force up to which the sheets stay bonded.
 pub const BONDED_LOSS: f64 = 0.25;
 /// Ratio of the peak with perfect bond to the peak from which bond governs.
@@ -76,6 +79,7 @@ impl Diagnosis {
             name: index.map_or(TEST_SPAN, |i| layout.shear_spans[i].name.as_str()),
             debonded,
             sheets,
+            lost: capacity.post_peak_drop >= LOST,
             ratio,
         };
         Self {
@@ -95,7 +99,16 @@ struct Bond<'a> {
     name: &'a str,
     debonded: [f64; 2],
     sheets: &'a SheetDrop,
+    /// Whether the load is lost.
+    lost: bool,
     ratio: Option<f64>,
+}
+
+impl Bond<'_> {
+    /// The measure *loss* of the module.
+    fn loss(&self) -> f64 {
+        if self.lost { 1.0 } else { self.span.loss() }
+    }
 }
 
 /// The table of the module.
@@ -103,7 +116,7 @@ fn mode(measures: &Measures, bond: &Bond<'_>, capacity: &Capacity) -> FailureMod
     if let Some(held) = measures.mode_without_drop(capacity) {
         return held;
     }
-    let loss = bond.span.loss();
+    let loss = bond.loss();
     let debonds = loss >= DEBONDING_LOSS && bond.debonded[1] >= DEBONDING_SHARE;
     let softened = measures.softened_web >= SOFTENED_WEB;
     let minor = measures.diagonal_share <= DIAGONAL_MINOR;
@@ -136,12 +149,20 @@ impl fmt::Display for Bond<'_> {
         let [at_peak, at_end] = self.debonded.map(|share| 100.0 * share);
         write!(
             f,
-            "sheet force in the {} {before:.1} kN at the peak, {after:.1} kN at {:.0} kN ({:+.0} %); {at_end:.0} \
-             % of its side debonded then, {at_peak:.0} % at the peak",
-            self.name,
-            self.sheets.end_load_kn,
+            "sheet force in the {} {before:.1} kN at the peak, ",
+            self.name
+        )?;
+        if self.lost {
+            f.write_str("lost with the load; ")?;
+        } else {
             // Adding 0 turns -0 into 0.
-            (-100.0 * self.span.loss()).round() + 0.0
+            let change = (-100.0 * self.loss()).round() + 0.0;
+            let load = self.sheets.end_load_kn;
+            write!(f, "{after:.1} kN at {load:.0} kN ({change:+.0} %); ")?;
+        }
+        write!(
+            f,
+            "{at_end:.0} % of its side debonded then, {at_peak:.0} % at the peak"
         )?;
         if let Some(zone) = &self.sheets.zone {
             write!(

@@ -117,6 +117,24 @@ fn yield_where_diagonal_cracks_govern_leaves_the_choice_between_bond_and_concret
 }
 
 #[test]
+fn forces_are_not_read_where_the_load_is_lost() {
+    let (before, after) = states();
+    let of = |fall: f64, debonded: f64| {
+        let drop = drop(-1.9, debonded);
+        Diagnosis::strengthened(&layout(), (&before, &after), &falls(fall), &drop, None)
+    };
+    assert_eq!(of(0.89, 0.85).mode, FailureMode::ConcreteSplitting);
+    let lost = of(0.9, 0.85);
+    assert_eq!(lost.mode, FailureMode::Debonding);
+    let evidence = lost.mode_evidence;
+    assert!(
+        evidence.contains("100.0 kN at the peak, lost with the load; 85 %"),
+        "{evidence}"
+    );
+    assert_eq!(of(0.9, 0.3).mode, FailureMode::Mixed);
+}
+
+#[test]
 fn crushing_behind_bonded_sheets_keeps_its_place() {
     let mut web = states();
     web.0.concrete[24].crushing = 0.1;
