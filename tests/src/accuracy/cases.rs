@@ -111,31 +111,26 @@ pub const NUMERICS: [Case; 10] = [
     case("explicit", "slow motion", "--driver explicit", MOTIONS),
 ];
 
+/// A beam of each kind on meshes of `rows` over the height, with sheets of others, and so many columns.
+macro_rules! meshes {
+    (rows: $bare:literal, $sheets:literal; columns: $($columns:literal),+) => {
+        [$(Case {
+            with_sheets: Some(concat!("--mesh ", $columns, "x", $sheets)),
+            ..case(
+                concat!("mesh-", $columns, "x", $bare),
+                "another mesh",
+                concat!("--mesh ", $columns, "x", $bare),
+                KINDS,
+            )
+        }),+]
+    };
+}
+
 /// Meshes of nearly the size of the default's.
-pub const COARSE: [Case; 5] = [
-    mesh("mesh-52x4", "--mesh 52x4", "--mesh 52x6"),
-    mesh("mesh-56x4", "--mesh 56x4", "--mesh 56x6"),
-    mesh("mesh-60x4", "--mesh 60x4", "--mesh 60x6"),
-    mesh("mesh-64x4", "--mesh 64x4", "--mesh 64x6"),
-    mesh("mesh-68x4", "--mesh 68x4", "--mesh 68x6"),
-];
+pub const COARSE: [Case; 5] = meshes!(rows: 4, 6; columns: 52, 56, 60, 64, 68);
 
 /// Meshes with half as many elements again along and up.
-pub const FINE: [Case; 5] = [
-    mesh("mesh-80x6", "--mesh 80x6", "--mesh 80x9"),
-    mesh("mesh-84x6", "--mesh 84x6", "--mesh 84x9"),
-    mesh("mesh-90x6", "--mesh 90x6", "--mesh 90x9"),
-    mesh("mesh-92x6", "--mesh 92x6", "--mesh 92x9"),
-    mesh("mesh-96x6", "--mesh 96x6", "--mesh 96x9"),
-];
-
-/// A beam of each kind on another mesh.
-const fn mesh(name: &'static str, bare: &'static str, sheets: &'static str) -> Case {
-    Case {
-        with_sheets: Some(sheets),
-        ..case(name, "another mesh", bare, KINDS)
-    }
-}
+pub const FINE: [Case; 5] = meshes!(rows: 6, 9; columns: 80, 84, 90, 92, 96);
 
 /// Parameters of the law, one at a time by 20 %.
 pub const PARAMETERS: [Case; 12] = [

@@ -21,7 +21,6 @@
 //! | below 5 % | | otherwise | | | none |
 //! | | yes | below 10 % | at most 0.4 | | flexure |
 //! | | no | at least 10 % | | | shear (web crushing) |
-//! | | yes | at least 10 % | at least 0.6 | | shear (web crushing) |
 //! | | | below 10 % | at least 0.6 | | shear (diagonal tension) |
 //! | | no | below 10 % | at most 0.4 | at least 0.1 % | concrete crushing |
 //! | | | otherwise | | | undecided |

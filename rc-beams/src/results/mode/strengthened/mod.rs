@@ -12,8 +12,8 @@
 //! - *ratio*: peak of the same beam with perfect bond over that of the beam, where it is known. At least
 //!   1.15, bond governs; at most 1.08, concrete does.
 //!
-//! *No yield* includes bars that yield where diagonal cracks govern, see [`super`]. A span that carries no sheet fails by the rules for bare beams. Else the first row that fits counts; rows 5 to 8
-//! need a drop to 0.8 of the peak.
+//! *No yield* includes bars that yield where diagonal cracks govern, see [`super`]. A span that carries no sheet fails
+//! by the rules for bare beams. Else the first row that fits counts; rows 5 to 8 need a drop to 0.8 of the peak.
 //!
 //! | | evidence | mode |
 //! |---|---|---|
@@ -122,13 +122,13 @@ fn mode(measures: &Measures, bond: &Bond<'_>, capacity: &Capacity) -> FailureMod
     let minor = measures.diagonal_share <= DIAGONAL_MINOR;
     let bond_governs = bond.ratio.is_some_and(|r| r >= BOND_GOVERNS);
     let concrete_governs = bond.ratio.is_some_and(|r| r <= CONCRETE_GOVERNS);
-    let stays = loss <= BONDED_LOSS && !measures.bends() && !bond_governs;
-    let bends = measures.mode() == FailureMode::Flexure;
+    let bends = measures.bends();
+    let stays = loss <= BONDED_LOSS && !bends && !bond_governs;
     if bond.sheets.utilisation >= 1.0 {
         FailureMode::SheetRupture
-    } else if debonds && !measures.bends() && !softened && !concrete_governs {
+    } else if debonds && !bends && !softened && !concrete_governs {
         FailureMode::Debonding
-    } else if !debonds && bends {
+    } else if !debonds && measures.mode() == FailureMode::Flexure {
         FailureMode::Flexure
     } else if !bond.sheets.complete {
         FailureMode::Undecided
