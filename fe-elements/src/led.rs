@@ -1,4 +1,4 @@
-//! Elements on nodes that follow others.
+//! Elements on nodes that follow others or hang between them.
 
 use std::borrow::Cow;
 
@@ -10,27 +10,82 @@ use fe_core::mesh::NodeId;
 
 use crate::seen::{Seen, View};
 
-/// An element on the DOFs of the leaders of its nodes: u = T u_led, f = T^T f, K = T^T K T, where each row of T has one
-/// entry, the factor of a follower.
+/// An element on the DOFs of other nodes than its own: u = T u_led, f = T^T f, K = T^T K T.
 pub type Led = Seen<Fold>;
 
 /// Where the DOFs of an element that is [`Led`] come from.
 #[derive(Debug)]
 pub struct Fold {
     nodes: Vec<NodeId>,
-    /// Column and entry of every row of T.
-    columns: Vec<(usize, f64)>,
+    /// Column and value of every entry of T, row by row.
+    entries: Vec<(usize, f64)>,
+    /// Where each row begins, and the last one ends.
+    begins: Vec<usize>,
 }
 
 impl Led {
-    /// The element on leaders, or itself where none of its nodes follows another.
+    /// The element on the leaders of its nodes, or itself where none follows another. Each row of T has one entry, the factor
+    /// of a follower.
     pub fn by(element: Box<dyn Element>, followers: &Followers) -> Box<dyn Element> {
         if element.nodes().iter().all(|&n| followers.of(n).0 == n) {
             return element;
         }
-        let (nodes, columns) = columns(element.nodes(), element.dofs(), followers);
-        let view = Fold { nodes, columns };
+        let (nodes, entries) = columns(element.nodes(), element.dofs(), followers);
+        let begins = (0..=entries.len()).collect();
+        let view = Fold {
+            nodes,
+            entries,
+            begins,
+        };
         Box::new(Self { element, view })
+    }
+
+    /// The element with one of its nodes held where it lies between others, u = sum N_b u_b over the nodes and shape
+    /// functions `held`; itself where it does not have that node.
+    ///
+    /// Meant for displacements: rotations are interpolated likewise.
+    pub fn hung(
+        element: Box<dyn Element>,
+        node: NodeId,
+        held: &[(NodeId, f64)],
+    ) -> Box<dyn Element> {
+        let own = element.nodes();
+        if !own.contains(&node) {
+            return element;
+        }
+        let mut nodes: Vec<NodeId> = own.iter().copied().filter(|&n| n != node).collect();
+        for (n, _) in held {
+            if !nodes.contains(n) {
+                nodes.push(*n);
+            }
+        }
+        let place = |node: NodeId| nodes.iter().position(|&n| n == node);
+        let per_node = element.dofs().len();
+        let (mut entries, mut begins) = (Vec::new(), vec![0]);
+        for &n in own {
+            let itself = [(n, 1.0)];
+            let sources = if n == node { held } else { &itself };
+            for k in 0..per_node {
+                let columns = sources
+                    .iter()
+                    .filter_map(|&(n, value)| Some((place(n)?, value)));
+                entries.extend(columns.map(|(at, value)| (per_node * at + k, value)));
+                begins.push(entries.len());
+            }
+        }
+        let view = Fold {
+            nodes,
+            entries,
+            begins,
+        };
+        Box::new(Self { element, view })
+    }
+}
+
+impl Fold {
+    /// Columns and values of the rows of T.
+    fn rows(&self) -> impl Iterator<Item = &[(usize, f64)]> {
+        self.begins.windows(2).map(|w| &self.entries[w[0]..w[1]])
     }
 }
 
@@ -68,7 +123,8 @@ impl View for Fold {
     }
 
     fn own<'a>(&self, u: &'a [f64]) -> Cow<'a, [f64]> {
-        self.columns.iter().map(|&(c, t)| t * u[c]).collect()
+        let row = |row: &[(usize, f64)]| row.iter().map(|&(c, t)| t * u[c]).sum();
+        self.rows().map(row).collect()
     }
 
     fn evaluate(
@@ -79,7 +135,7 @@ impl View for Fold {
         ctx: &EvaluationContext,
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
-        let (n, led) = (self.columns.len(), u.len());
+        let (n, led) = (self.begins.len() - 1, u.len());
         let mut force = vec![0.0; n];
         let mut stiffness = vec![0.0; if out.stiffness.is_empty() { 0 } else { n * n }];
         let own = ElementSystem {
@@ -87,19 +143,24 @@ impl View for Fold {
             stiffness: &mut stiffness,
         };
         element.evaluate(&self.own(u), committed, trial, ctx, own)?;
-        for (f, &(c, t)) in force.iter().zip(&self.columns) {
-            out.force[c] += t * f;
+        for (f, row) in force.iter().zip(self.rows()) {
+            for &(c, t) in row {
+                out.force[c] += t * f;
+            }
         }
         let upper = fills_upper(element, ctx);
-        for (i, row) in stiffness.chunks_exact(n).enumerate() {
-            let (a, s) = self.columns[i];
-            for (j, &(b, t)) in self.columns.iter().enumerate() {
+        for (i, (k, row)) in stiffness.chunks_exact(n).zip(self.rows()).enumerate() {
+            for (j, column) in self.rows().enumerate() {
                 let k = if upper && j < i {
                     stiffness[j * n + i]
                 } else {
-                    row[j]
+                    k[j]
                 };
-                out.stiffness[a * led + b] += s * t * k;
+                for &(a, s) in row {
+                    for &(b, t) in column {
+                        out.stiffness[a * led + b] += s * t * k;
+                    }
+                }
             }
         }
         Ok(())

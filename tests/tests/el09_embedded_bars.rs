@@ -1,4 +1,4 @@
-//! EL-09, EL-09b, EL-10: straight bars embedded in hexahedra.
+//! EL-09, EL-09b, EL-09c, EL-10: straight bars embedded in hexahedra.
 //!
 //! Source: statics. A bar of force N along t between a and b does the work N t . (v_b - v_a) on any displacement field v.
 
@@ -9,9 +9,9 @@ use fe_core::grid::GridBuilder;
 use fe_core::kinematics::Axial;
 use fe_core::material::Material;
 use fe_core::material::Operator;
-use fe_core::mesh::Mesh;
+use fe_core::mesh::{Mesh, NodeId};
 use fe_core::shape::hex20;
-use fe_elements::{Bar, EmbeddedBar, embed};
+use fe_elements::{Bar, Dowel, EmbeddedBar, Hosts, Led, embed};
 use fe_materials::Elastic;
 use fe_tests::laws::Tendon;
 use fe_tests::mesh::{BLOCK, boxes, mapped};
@@ -204,4 +204,66 @@ fn shared_faces_and_edges_count_once() {
             .sum();
         assert!((end / (YOUNG * AREA * 1e-3) - 1.0).abs() < 1e-12, "{end}");
     }
+}
+
+/// EL-09c, a bar that slips in a straight host, its nodes displaced as the host is at their place: the virtual work is that of
+/// the bar with perfect bond, with a dowel that slides and with one end held. Target: rounding.
+#[test]
+fn a_bar_that_does_not_slip_is_perfectly_bonded() {
+    let mesh = boxes(&[0.0, 40.0], &[0.0, 30.0], &[0.0, 50.0]).unwrap();
+    let hosts = Hosts::new(&mesh, &[BLOCK]).unwrap();
+    let dowel = Dowel::he_kwan(16.0, 38.0, 200e3, 50.0, [0.0, 0.0, 1.0]).unwrap();
+    let bar = Bar {
+        name: "oblique".into(),
+        polyline: vec![[5.0, 3.0, 7.0], [36.0, 21.0, 40.0]],
+        area_mm2: AREA,
+        law: Arc::new(Elastic::new(YOUNG, 0.0).unwrap()),
+        dowel: Some(dowel.bounded(1.0, 38.0, 460.0).unwrap()),
+    };
+    let ends = [0, 1].map(|i| bar.polyline[i]);
+    let middle = std::array::from_fn(|k| 0.5 * (ends[0][k] + ends[1][k]));
+    // Quadratic along the bar, which its three nodes follow.
+    let field = |seed: f64, x: [f64; 3]| {
+        let wave = |k: usize| 0.01 * x[k] * (seed + x[(k + 1) % 3] / 50.0);
+        [wave(0), wave(1), wave(2)]
+    };
+    let all: Vec<[f64; 3]> = mesh
+        .nodes()
+        .iter()
+        .copied()
+        .chain([ends[0], ends[1], middle])
+        .collect();
+    let value = |element: &dyn Element, seed: f64| -> Vec<f64> {
+        element
+            .nodes()
+            .iter()
+            .flat_map(|&n| field(seed, all[n]))
+            .collect()
+    };
+    let work = |element: &dyn Element| -> f64 {
+        let (u, v) = (value(element, 0.3), value(element, 0.8));
+        let state = vec![0.0; element.state_len()];
+        let mut force = vec![0.0; u.len()];
+        let out = ElementSystem {
+            force: &mut force,
+            stiffness: &mut [],
+        };
+        let ctx = EvaluationContext::new(Operator::None);
+        element
+            .evaluate(&u, &state, &mut state.clone(), &ctx, out)
+            .unwrap();
+        force.iter().zip(&v).map(|(f, v)| f * v).sum()
+    };
+    let bonded = embed(std::slice::from_ref(&bar), &mesh, &[BLOCK]).unwrap();
+    let expected = work(&bonded[0]);
+    let own = [20, 21, 22];
+    let piece = &hosts.cut(&bar).unwrap()[0];
+    let slipping: Box<dyn Element> = Box::new(hosts.slipping(&bar, piece, own).unwrap());
+    let cell: [NodeId; 20] = std::array::from_fn(|a| bonded[0].nodes()[a]);
+    let natural = hex20::inverse_map(&cell.map(|n| all[n]), ends[1]).unwrap();
+    let held: Vec<_> = cell.into_iter().zip(hex20::shape(natural).0).collect();
+    assert!((work(slipping.as_ref()) / expected - 1.0).abs() < 1e-12);
+    let held = Led::hung(slipping, own[1], &held);
+    assert!(!held.nodes().contains(&own[1]));
+    assert!((work(held.as_ref()) / expected - 1.0).abs() < 1e-12);
 }

@@ -1,4 +1,4 @@
-//! The part of a bar inside one host, as an element on the host's nodes.
+//! The part of a bar inside one host, as an element on the host's nodes, and on its own where it slips.
 
 use std::sync::Arc;
 
@@ -8,11 +8,11 @@ use fe_core::followers::Followers;
 use fe_core::kinematics::Axial;
 use fe_core::material::{Material, Operator};
 use fe_core::mesh::NodeId;
-use fe_core::shape::quadrature;
+use fe_core::shape::{line3, quadrature};
 use nalgebra::{Vector1, Vector3};
 
 use super::cut::{Host, Piece};
-use super::{Bar, Dowel, gradients_at};
+use super::{Bar, Dowel, gradients_at, no_host};
 use crate::led::columns;
 use crate::points;
 
@@ -35,7 +35,8 @@ struct BarPoint {
 #[derive(Debug)]
 pub struct EmbeddedBar {
     bar: String,
-    host: [NodeId; 20],
+    /// Whose displacements it shares; none if it slips.
+    host: Option<[NodeId; 20]>,
     nodes: Vec<NodeId>,
     area: f64,
     dowel: Option<Dowel>,
@@ -48,49 +49,92 @@ pub struct EmbeddedBar {
 impl EmbeddedBar {
     pub(super) fn new(bar: &Bar, host: &Host, pieces: &[Piece]) -> Result<Self, ElementError> {
         let rule = quadrature::gauss_legendre(if host.is_affine() { 2 } else { 4 });
-        let mut points = Vec::new();
-        let mut drawn = Vec::new();
+        let mut element = Self::empty(bar, Some(host.nodes), host.nodes.into());
         for piece in pieces {
-            let [a, b] = piece.ends;
-            let (length, t) = ((b - a).norm(), piece.direction);
-            let transverse = bar.dowel.and_then(|d| {
-                Vector3::from(d.plane_normal())
-                    .cross(&t)
-                    .try_normalize(1e-6)
-            });
-            for &(xi, w) in &rule {
-                let share = 0.5 * (1.0 + xi);
-                let position = a + share * (b - a);
-                let Some(g) = gradients_at(host, position) else {
-                    return Err(ElementError::NoHost {
-                        bar: bar.name.clone(),
-                        x: position[0],
-                        y: position[1],
-                        z: position[2],
-                    });
-                };
-                points.push(BarPoint {
-                    position: position.into(),
-                    arc_length: piece.start + share * length,
-                    weight: 0.5 * w * length,
-                    axial: axial_row(&g, t),
-                    shear: transverse.map(|n| shear_row(&g, t, n)),
-                });
-            }
-            drawn.push(([a.into(), b.into()], rule.len()));
+            element.add(bar, host, piece, &rule, |_, g| {
+                axial_row(g, piece.direction)
+            })?;
         }
-        Ok(Self {
+        Ok(element)
+    }
+
+    /// The `piece` of a bar that slips, on the nodes `own`, its ends first, then its middle. The axial strain is
+    /// e = sum dN_a/ds t . u_a over these; the dowel acts on the nodes of the host as with perfect bond.
+    pub(super) fn slipping(
+        bar: &Bar,
+        host: &Host,
+        piece: &Piece,
+        own: [NodeId; 3],
+    ) -> Result<Self, ElementError> {
+        let nodes: Vec<NodeId> = match transverse(bar, piece.direction) {
+            Some(_) => own.into_iter().chain(host.nodes).collect(),
+            None => own.into(),
+        };
+        let count = 3 * nodes.len();
+        let to_length = 2.0 / (piece.ends[1] - piece.ends[0]).norm();
+        let mut element = Self::empty(bar, None, nodes);
+        let rule = quadrature::gauss_legendre(2);
+        element.add(bar, host, piece, &rule, |xi, _| {
+            let mut row = vec![0.0; count];
+            for (own, slope) in row.chunks_exact_mut(3).zip(line3::shape(xi).1) {
+                own.copy_from_slice((to_length * slope * piece.direction).as_slice());
+            }
+            row
+        })?;
+        for point in &mut element.points {
+            if let Some(shear) = &mut point.shear {
+                *shear = [&[0.0; 9], &**shear].concat().into();
+            }
+        }
+        Ok(element)
+    }
+
+    /// A bar with no pieces yet.
+    fn empty(bar: &Bar, host: Option<[NodeId; 20]>, nodes: Vec<NodeId>) -> Self {
+        Self {
             bar: bar.name.clone(),
-            host: host.nodes,
-            nodes: host.nodes.into(),
+            host,
+            nodes,
             area: bar.area_mm2,
-            dowel: bar
-                .dowel
-                .filter(|_| points.iter().any(|p| p.shear.is_some())),
+            dowel: None,
             law: Arc::clone(&bar.law),
-            points,
-            pieces: drawn,
-        })
+            points: Vec::new(),
+            pieces: Vec::new(),
+        }
+    }
+
+    /// Adds a piece with the points of `rule`. Their axial rows come from the natural coordinate along the piece and
+    /// the gradients of the host's shape functions.
+    fn add(
+        &mut self,
+        bar: &Bar,
+        host: &Host,
+        piece: &Piece,
+        rule: &[(f64, f64)],
+        axial: impl Fn(f64, &[[f64; 3]; 20]) -> Vec<f64>,
+    ) -> Result<(), ElementError> {
+        let [a, b] = piece.ends;
+        let length = (b - a).norm();
+        let transverse = transverse(bar, piece.direction);
+        if transverse.is_some() {
+            self.dowel = bar.dowel;
+        }
+        for &(xi, w) in rule {
+            let share = 0.5 * (1.0 + xi);
+            let position = a + share * (b - a);
+            let Some(g) = gradients_at(host, position) else {
+                return Err(no_host(bar, &position));
+            };
+            self.points.push(BarPoint {
+                position: position.into(),
+                arc_length: piece.start + share * length,
+                weight: 0.5 * w * length,
+                axial: axial(xi, &g).into(),
+                shear: transverse.map(|n| shear_row(&g, piece.direction, n)),
+            });
+        }
+        self.pieces.push(([a.into(), b.into()], rule.len()));
+        Ok(())
     }
 
     /// The same on the DOFs of the nodes that lead those of the host.
@@ -151,8 +195,14 @@ impl EmbeddedBar {
     }
 }
 
+/// Direction in which a bar along t acts as a dowel, if it has one.
+fn transverse(bar: &Bar, t: Vector3<f64>) -> Option<Vector3<f64>> {
+    let normal = Vector3::from(bar.dowel?.plane_normal());
+    normal.cross(&t).try_normalize(1e-6)
+}
+
 /// t . (grad u) t: entry (a, k) is (grad N_a . t) t_k.
-fn axial_row(g: &[[f64; 3]; 20], t: Vector3<f64>) -> Row {
+fn axial_row(g: &[[f64; 3]; 20], t: Vector3<f64>) -> Vec<f64> {
     let mut row = vec![0.0; 60];
     for a in 0..20 {
         let along = Vector3::from(g[a]).dot(&t);
@@ -160,7 +210,7 @@ fn axial_row(g: &[[f64; 3]; 20], t: Vector3<f64>) -> Row {
             row[3 * a + k] = along * t[k];
         }
     }
-    row.into()
+    row
 }
 
 /// t . (grad u + grad u^T) n.
@@ -316,7 +366,7 @@ impl Element for EmbeddedBar {
     }
 
     fn host(&self) -> Option<&[NodeId; 20]> {
-        Some(&self.host)
+        self.host.as_ref()
     }
 
     fn segments(

@@ -1,9 +1,10 @@
 //! Reinforcing bars embedded in hexahedra of any shape.
 //!
-//! A bar is a polyline that shares the displacements of its hosts (perfect bond): at a point of direction
+//! A bar is a polyline. With perfect bond it shares the displacements of its hosts: at a point of direction
 //! t the axial strain is e = t . (grad u) t, and the internal force is int A sigma B^T ds. The polyline is cut
 //! at every face of a host, because the strain has a kink there; a piece in an affine host is integrated
-//! with two Gauss points (the strain along a line is at most cubic), in a distorted one with four.
+//! with two Gauss points (the strain along a line is at most cubic), in a distorted one with four. A bar that
+//! slips has nodes of its own, [`Hosts::slipping`], and a bond element beside it.
 
 mod cut;
 mod dowel;
@@ -173,9 +174,36 @@ impl Hosts {
         Ok(pieces)
     }
 
+    /// The `piece` of a bar that slips, on three nodes of its own: its ends, then its middle. The bond that holds it along
+    /// its axis and across is not part of it.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::NoHost`] where the piece does not lie in its host.
+    pub fn slipping(
+        &self,
+        bar: &Bar,
+        piece: &Piece,
+        own: [NodeId; 3],
+    ) -> Result<EmbeddedBar, ElementError> {
+        let host = self.0.get(piece.host);
+        let host = host.ok_or_else(|| no_host(bar, &piece.ends[0]))?;
+        EmbeddedBar::slipping(bar, host, piece, own)
+    }
+
     /// Nodes and coordinates (mm) of a host, `None` if there is none of that number.
     pub fn cell(&self, host: usize) -> Option<([NodeId; 20], [[f64; 3]; 20])> {
         self.0.get(host).map(|h| (h.nodes, h.coords))
+    }
+}
+
+/// A point (mm) of a bar lies in no host.
+fn no_host(bar: &Bar, point: &Vector3<f64>) -> ElementError {
+    ElementError::NoHost {
+        bar: bar.name.clone(),
+        x: point[0],
+        y: point[1],
+        z: point[2],
     }
 }
 

@@ -3,7 +3,6 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use fe_contact::BondSlipBar;
 use fe_core::element::Element;
 use fe_core::followers::Followers;
 use fe_core::kinematics::Axial;
@@ -12,8 +11,10 @@ use fe_core::mesh::Mesh;
 use fe_elements::{Bar, Dowel, Led};
 use fe_materials::Biso;
 
-use super::{BuildError, ModelSettings, laws, slipping};
-use crate::spec::{Specimen, Steel};
+use super::slipping::{self, Slip};
+use super::{BuildError, ModelSettings, laws};
+
+use crate::spec::{BarArea, BarBond, BarDiameter, Specimen, Steel};
 
 /// What a bar is for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,14 +52,20 @@ pub(super) fn lay(
     followers: &Followers,
     elements: &mut Vec<Box<dyn Element>>,
 ) -> Result<Vec<BarRecord>, BuildError> {
-    let mut records = Vec::new();
-    for (bar, slip, mut record) in bars(specimen, settings)? {
+    let mut records: Vec<BarRecord> = Vec::new();
+    for planned in bars(specimen, settings)? {
+        let Planned {
+            bar,
+            slip,
+            mut record,
+        } = planned;
         let first = elements.len();
         let mut bonds = Vec::new();
         if let Some(slip) = slip {
             let (steel, around) = slipping::lay(&bar, &slip, mesh, blocks)?;
-            elements.extend(steel);
-            bonds = around.into_iter().map(|e| Led::by(e, followers)).collect();
+            let led = |e| Led::by(e, followers);
+            elements.extend(steel.into_iter().map(led));
+            bonds = around.into_iter().map(led).collect();
         } else {
             let pieces = fe_elements::embed(&[bar], mesh, blocks)?;
             let led = pieces.into_iter().map(|e| Box::new(e.led_by(followers)));
@@ -72,46 +79,42 @@ pub(super) fn lay(
     Ok(records)
 }
 
-/// Every bar of the half model with its bond, unless perfect, and its record, elements still empty.
-fn bars(
-    specimen: &Specimen,
-    settings: &ModelSettings,
-) -> Result<Vec<(Bar, Option<BondSlipBar>, BarRecord)>, BuildError> {
+/// Every bar of the half model, its record still without elements.
+fn bars(specimen: &Specimen, settings: &ModelSettings) -> Result<Vec<Planned>, BuildError> {
     let mut bars = Vec::new();
-    let stock = |count: u8, area: f64, diameter: f64, steel: &Steel| -> Result<_, BuildError> {
-        let dowel = dowel(specimen, settings, diameter, steel)?;
-        Ok(Stock {
-            area_mm2: f64::from(count) * area,
-            fy_mpa: steel.fy_mpa.get(),
-            law: law(steel)?,
-            dowel: dowel.map(|one| one.times(u32::from(count))),
-        })
-    };
     for b in &specimen.bars {
-        let count = b.count_in_half.get();
-        let stock = stock(count, b.area_mm2.get(), b.diameter_mm.get(), &b.steel)?;
+        let size = (b.count_in_half.get(), b.diameter_mm, b.area_mm2);
+        let bond = (&b.bond, b.anchored);
+        let stock = Stock::new(specimen, settings, size, &b.steel, bond)?;
         let at = |x: f64| [x, b.axis.y_mm.get(), b.axis.z_mm.get()];
         let ends = [at(b.axis.x_from_mm.get()), at(b.axis.x_to_mm.get())];
-        let (bar, record) = stock.bar(b.name.clone(), BarKind::Longitudinal, ends);
-        bars.push((bar, slipping::bond(specimen, settings, b)?, record));
+        bars.push(stock.bar(b.name.clone(), BarKind::Longitudinal, ends));
     }
     if let Some(s) = &specimen.stirrups {
-        let stock = stock(1, s.area_mm2.get(), s.diameter_mm.get(), &s.steel)?;
+        let size = (1, s.diameter_mm, s.area_mm2);
+        let stock = Stock::new(specimen, settings, size, &s.steel, (&s.bond, true))?;
         for x in s.positions() {
             let leg = &s.shape.vertical;
             let ends = [&leg.y_from_mm, &leg.y_to_mm].map(|y| [x, y.get(), leg.z_mm.get()]);
             let name = format!("stirrup at {x}");
-            let (bar, record) = stock.bar(name, BarKind::StirrupLeg(x), ends);
-            bars.push((bar, None, record));
+            bars.push(stock.bar(name, BarKind::StirrupLeg(x), ends));
             for tie in &s.shape.horizontal {
                 let y = tie.y_mm.get();
                 let ends = [&tie.z_from_mm, &tie.z_to_mm].map(|z| [x, y, z.get()]);
-                let (bar, record) = stock.bar(format!("tie at {x}, {y}"), BarKind::Tie, ends);
-                bars.push((bar, None, record));
+                let tie = stock.bar(format!("tie at {x}, {y}"), BarKind::Tie, ends);
+                bars.push(Planned { slip: None, ..tie });
             }
         }
     }
     Ok(bars)
+}
+
+/// A bar to lay.
+struct Planned {
+    bar: Bar,
+    /// How it slips, if it does.
+    slip: Option<Slip>,
+    record: BarRecord,
 }
 
 /// What bars of one kind have in common.
@@ -120,10 +123,30 @@ struct Stock {
     fy_mpa: f64,
     law: Arc<dyn Material<Axial>>,
     dowel: Option<Dowel>,
+    slip: Option<Slip>,
 }
 
 impl Stock {
-    fn bar(&self, name: String, kind: BarKind, ends: [[f64; 3]; 2]) -> (Bar, BarRecord) {
+    /// Bars of which `count` with this diameter and area lie at one place; their ends are held or not.
+    fn new(
+        specimen: &Specimen,
+        settings: &ModelSettings,
+        (count, diameter, area): (u8, BarDiameter, BarArea),
+        steel: &Steel,
+        bond: (&BarBond, bool),
+    ) -> Result<Self, BuildError> {
+        let diameter = diameter.get();
+        let dowel = dowel(specimen, settings, diameter, steel)?;
+        Ok(Self {
+            area_mm2: f64::from(count) * area.get(),
+            fy_mpa: steel.fy_mpa.get(),
+            law: law(steel)?,
+            dowel: dowel.map(|one| one.times(u32::from(count))),
+            slip: slipping::slip(specimen, settings, (count, diameter), bond)?,
+        })
+    }
+
+    fn bar(&self, name: String, kind: BarKind, ends: [[f64; 3]; 2]) -> Planned {
         let bar = Bar {
             name: name.clone(),
             polyline: ends.into(),
@@ -139,7 +162,11 @@ impl Stock {
             elements: 0..0,
             bond: 0..0,
         };
-        (bar, record)
+        Planned {
+            bar,
+            slip: self.slip.clone(),
+            record,
+        }
     }
 }
 

@@ -22,7 +22,7 @@ fn specimen() -> Specimen {
     read("slip", text).unwrap()
 }
 
-/// On a coarse mesh, without dowels: slipping bars have none.
+/// On a coarse mesh, without dowels, of which the theories below know nothing.
 fn beam(specimen: &Specimen) -> Beam {
     let settings = ModelSettings {
         mesh: [16, 2, 1].into(),
@@ -101,6 +101,42 @@ fn slipping_bars_hold_what_the_specimen_says() {
     }
     let stirrups = beam.bars.iter().filter(|b| b.kind != BarKind::Longitudinal);
     assert!(stirrups.clone().count() > 10 && stirrups.clone().all(|b| b.bond.is_empty()));
+}
+
+/// Bars with ends that are held share the displacement of the concrete there: their end nodes belong to no element. So do legs
+/// of stirrups, while their horizontal legs keep perfect bond.
+#[test]
+fn held_ends_move_with_the_concrete() {
+    let mut specimen = specimen();
+    specimen.bars[0].anchored = true;
+    specimen.stirrups.as_mut().unwrap().bond = specimen.bars[0].bond.clone();
+    let beam = beam(&specimen);
+    let own = |range: std::ops::Range<usize>| -> BTreeSet<NodeId> {
+        let elements = &beam.model.elements()[range];
+        elements.iter().flat_map(|e| e.nodes()).copied().collect()
+    };
+    let concrete = own(beam.concrete.clone());
+    let mut legs = 0;
+    for record in &beam.bars {
+        let held = match record.kind {
+            BarKind::Longitudinal => record.name == specimen.bars[0].name,
+            BarKind::StirrupLeg(_) => true,
+            BarKind::Tie => {
+                assert!(record.bond.is_empty());
+                continue;
+            }
+        };
+        let nodes = own(record.bond.clone());
+        let count = nodes.difference(&concrete).count();
+        let expected = 2 * record.elements.len() + 1 - if held { 2 } else { 0 };
+        assert_eq!(count, expected, "{}", record.name);
+        legs += usize::from(record.kind != BarKind::Longitudinal);
+    }
+    assert!(legs > 10);
+    let [deflection, carried] = under_weight(&beam);
+    let [target, weight] = under_weight(&self::beam(&perfect()));
+    assert!((carried - weight).abs() < 1.0, "{carried}");
+    assert!((1.0..1.05).contains(&(deflection / target)), "{deflection}");
 }
 
 /// A bar that ends a rounding beyond an element face gets no element there.

@@ -47,11 +47,14 @@ pub struct Bar {
     /// Bond to the concrete.
     #[serde(default)]
     pub bond: BarBond,
+    /// Whether hooks or anchor plates hold the ends of a bar that slips.
+    #[serde(default)]
+    pub anchored: bool,
     /// Where the bar lies.
     pub axis: Axis,
 }
 
-/// Bond of longitudinal bars to the concrete.
+/// Bond of bars to the concrete.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum BarBond {
@@ -121,6 +124,9 @@ pub struct Stirrups {
     pub source: String,
     /// Steel.
     pub steel: Steel,
+    /// Bond of the vertical legs to the concrete, between bends that hold.
+    #[serde(default)]
+    pub bond: BarBond,
     /// Shape in the half section.
     pub shape: StirrupShape,
     /// Zones along the beam, from left to right, without gaps.

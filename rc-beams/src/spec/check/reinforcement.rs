@@ -27,6 +27,7 @@ impl Checks<'_> {
         if let Some(stirrups) = &specimen.stirrups {
             self.steel("stirrups", &stirrups.steel);
             self.area("stirrups", stirrups.diameter_mm, stirrups.area_mm2);
+            self.bond("stirrups", &stirrups.bond);
             self.shape(stirrups);
             self.zones(stirrups);
         }
