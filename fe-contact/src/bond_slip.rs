@@ -116,12 +116,7 @@ impl BondSlip {
             let inside = |xi: &[f64; 3]| xi.iter().all(|c| c.abs() <= 1.0 + 1e-6);
             let natural = hex20::inverse_map(host, position.into()).filter(inside);
             let Some(natural) = natural else {
-                return Err(ElementError::NoHost {
-                    bar: "with slip".into(),
-                    x: position[0],
-                    y: position[1],
-                    z: position[2],
-                });
+                return Err(ElementError::no_host("with slip", position));
             };
             let around = hex20::shape(natural).0;
             points.push(Point {
@@ -190,20 +185,12 @@ impl Element for BondSlip {
         ctx: &EvaluationContext,
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
-        let n = self.law.state_len();
+        let law = self.law.as_ref();
         let point_ctx = points::context(self.size, ctx);
         for (p, point) in self.points.iter().enumerate() {
-            let range = p * n..(p + 1) * n;
             let jump = point.jump(u);
-            let response = self
-                .law
-                .update(
-                    &slip(&jump),
-                    &committed[range.clone()],
-                    &mut trial[range],
-                    &point_ctx,
-                )
-                .map_err(|source| ElementError::Material { point: p, source })?;
+            let states = (committed, &mut *trial);
+            let response = points::answer(law, (p, &slip(&jump)), states, &point_ctx)?;
             let across = self.transverse * jump;
             let stress = Vector3::new(response.stress[0], across[1], across[2]);
             let traction = point.axes.tr_mul(&stress) * point.area;

@@ -228,21 +228,13 @@ impl Element for Interface16 {
         ctx: &EvaluationContext,
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
-        let n = self.law.state_len();
+        let law = self.law.as_ref();
         let point_ctx = points::context(self.size, ctx);
         // Sums of w J N_a N_b D, of which the blocks of K are copies.
         let mut sums = (ctx.operator != Operator::None).then_some([[[[0.0; 3]; 3]; 8]; 8]);
         for (p, point) in self.points.iter().enumerate() {
-            let range = p * n..(p + 1) * n;
-            let response = self
-                .law
-                .update(
-                    &point.jump(u),
-                    &committed[range.clone()],
-                    &mut trial[range],
-                    &point_ctx,
-                )
-                .map_err(|source| ElementError::Material { point: p, source })?;
+            let states = (committed, &mut *trial);
+            let response = points::answer(law, (p, &point.jump(u)), states, &point_ctx)?;
             let signed = point.signed();
             let traction = point.axes.tr_mul(&response.stress) * point.area;
             for (f, s) in out.force.chunks_exact_mut(3).zip(signed) {

@@ -132,6 +132,15 @@ pub enum ElementError {
 }
 
 impl ElementError {
+    /// A bar leaves the mesh at a point (mm).
+    pub fn no_host(bar: &str, point: impl Into<[f64; 3]>) -> Self {
+        let [x, y, z] = point.into();
+        let bar = bar.into();
+        Self::NoHost { bar, x, y, z }
+    }
+}
+
+impl ElementError {
     /// Whether a shorter step may cure it.
     pub const fn is_recoverable(&self) -> bool {
         match self {

@@ -3,7 +3,7 @@
 
 use crate::element::{ElementError, EvaluationContext, PointSample};
 use crate::kinematics::Kinematics;
-use crate::material::{Material, PointContext};
+use crate::material::{Material, PointContext, Response};
 
 /// Context of a point of the given crack-band width (mm) within an evaluation.
 pub const fn context(band_width: f64, ctx: &EvaluationContext) -> PointContext {
@@ -22,6 +22,23 @@ pub fn init_state<K: Kinematics>(law: &dyn Material<K>, state: &mut [f64]) {
             law.init_state(own);
         }
     }
+}
+
+/// Answer of the law at one of the points, whose history is its part of the `committed` and the `trial` one.
+///
+/// # Errors
+///
+/// [`ElementError::Material`], naming the point.
+pub fn answer<K: Kinematics>(
+    law: &dyn Material<K>,
+    (point, strain): (usize, &K::Vector),
+    (committed, trial): (&[f64], &mut [f64]),
+    ctx: &PointContext,
+) -> Result<Response<K>, ElementError> {
+    let n = law.state_len();
+    let own = point * n..(point + 1) * n;
+    law.update(strain, &committed[own.clone()], &mut trial[own], ctx)
+        .map_err(|source| ElementError::Material { point, source })
 }
 
 /// [`Material::latch`] for every point.

@@ -121,20 +121,12 @@ impl<const N: usize> Element for Sheet<N> {
         ctx: &EvaluationContext,
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
-        let n = self.law.state_len();
+        let law = self.law.as_ref();
         let point_ctx = points::context(self.band_width, ctx);
         let (operator, unsymmetric) = (ctx.operator, self.law.unsymmetric_tangent());
         for (p, point) in self.points.iter().enumerate() {
-            let range = p * n..(p + 1) * n;
-            let response = self
-                .law
-                .update(
-                    &point.strain(u),
-                    &committed[range.clone()],
-                    &mut trial[range],
-                    &point_ctx,
-                )
-                .map_err(|source| ElementError::Material { point: p, source })?;
+            let states = (committed, &mut *trial);
+            let response = points::answer(law, (p, &point.strain(u)), states, &point_ctx)?;
             point.add(&response, operator, unsymmetric, out.force, out.stiffness);
         }
         Ok(())

@@ -118,19 +118,11 @@ impl Element for Truss3 {
         ctx: &EvaluationContext,
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
-        let n = self.law.state_len();
+        let law = self.law.as_ref();
         let point_ctx = points::context(self.length, ctx);
         for (p, point) in self.points.iter().enumerate() {
-            let range = p * n..(p + 1) * n;
-            let response = self
-                .law
-                .update(
-                    &point.strain(u),
-                    &committed[range.clone()],
-                    &mut trial[range],
-                    &point_ctx,
-                )
-                .map_err(|source| ElementError::Material { point: p, source })?;
+            let states = (committed, &mut *trial);
+            let response = points::answer(law, (p, &point.strain(u)), states, &point_ctx)?;
             for i in 0..9 {
                 out.force[i] += point.volume * response.stress[0] * point.row[i];
                 if ctx.operator != Operator::None {

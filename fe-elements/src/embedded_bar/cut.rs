@@ -184,9 +184,7 @@ pub(super) fn cut(
             (exit > reached + SLIVER).then_some((h, exit))
         };
         let Some((host, exit)) = hosts.iter().enumerate().find_map(ahead) else {
-            let [x, y, z] = segment.at(reached).into();
-            let bar = bar.into();
-            return Err(ElementError::NoHost { bar, x, y, z });
+            return Err(ElementError::no_host(bar, segment.at(reached)));
         };
         pieces.push(Piece {
             host,

@@ -12,7 +12,7 @@ use fe_core::shape::{line3, quadrature};
 use nalgebra::{Vector1, Vector3};
 
 use super::cut::{Host, Piece};
-use super::{Bar, Dowel, gradients_at, no_host};
+use super::{Bar, Dowel, gradients_at};
 use crate::led::columns;
 use crate::points;
 
@@ -123,7 +123,7 @@ impl EmbeddedBar {
             let share = 0.5 * (1.0 + xi);
             let position = a + share * (b - a);
             let Some(g) = gradients_at(host, position) else {
-                return Err(no_host(bar, &position));
+                return Err(ElementError::no_host(&bar.name, position));
             };
             self.points.push(BarPoint {
                 position: position.into(),
@@ -280,23 +280,14 @@ impl Element for EmbeddedBar {
         ctx: &EvaluationContext,
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
-        let n = self.law.state_len();
+        let law = self.law.as_ref();
         let point_ctx = points::context(0.0, ctx);
         let full = self.slides() && ctx.operator == Operator::Tangent;
         let (trial, slid) = trial.split_at_mut(self.axial_len());
         slid.copy_from_slice(&committed[self.axial_len()..]);
         for (p, point) in self.points.iter().enumerate() {
-            let strain = strain(point, u);
-            let range = p * n..(p + 1) * n;
-            let response = self
-                .law
-                .update(
-                    &strain,
-                    &committed[range.clone()],
-                    &mut trial[range],
-                    &point_ctx,
-                )
-                .map_err(|source| ElementError::Material { point: p, source })?;
+            let states = (committed, &mut *trial);
+            let response = points::answer(law, (p, &strain(point, u)), states, &point_ctx)?;
             let axial = self.area * point.weight * response.stress[0];
             for (f, b) in out.force.iter_mut().zip(&point.axial) {
                 *f += axial * b;

@@ -187,23 +187,13 @@ impl Hosts {
         own: [NodeId; 3],
     ) -> Result<EmbeddedBar, ElementError> {
         let host = self.0.get(piece.host);
-        let host = host.ok_or_else(|| no_host(bar, &piece.ends[0]))?;
+        let host = host.ok_or_else(|| ElementError::no_host(&bar.name, piece.ends[0]))?;
         EmbeddedBar::slipping(bar, host, piece, own)
     }
 
     /// Nodes and coordinates (mm) of a host, `None` if there is none of that number.
     pub fn cell(&self, host: usize) -> Option<([NodeId; 20], [[f64; 3]; 20])> {
         self.0.get(host).map(|h| (h.nodes, h.coords))
-    }
-}
-
-/// A point (mm) of a bar lies in no host.
-fn no_host(bar: &Bar, point: &Vector3<f64>) -> ElementError {
-    ElementError::NoHost {
-        bar: bar.name.clone(),
-        x: point[0],
-        y: point[1],
-        z: point[2],
     }
 }
 

@@ -8,7 +8,6 @@ use fe_core::element::{Element, ElementError};
 use fe_core::mesh::Mesh;
 use fe_core::shape::hex20;
 use fe_elements::{Bar, Hosts, Led};
-use nalgebra::Vector3;
 
 use super::{BuildError, ModelSettings, laws};
 use crate::spec::{BarBond, Specimen};
@@ -70,6 +69,7 @@ pub(super) fn lay(
     let count = pieces.len();
     for (i, piece) in pieces.into_iter().enumerate() {
         let ends = piece.ends;
+        let outside = |end: usize| ElementError::no_host(&bar.name, ends[end]);
         let first = match last {
             Some(node) => node,
             None => mesh.add_node(ends[0].into())?,
@@ -81,9 +81,7 @@ pub(super) fn lay(
             mesh.add_node(middle.into())?,
         ];
         last = Some(own[1]);
-        let (around, host) = hosts
-            .cell(piece.host)
-            .ok_or_else(|| no_host(bar, &ends[0]))?;
+        let (around, host) = hosts.cell(piece.host).ok_or_else(|| outside(0))?;
         let places = own.map(|n| mesh.nodes()[n]);
         let all = std::array::from_fn(|a| if a < 3 { own[a] } else { around[a - 3] });
         let mut pair: [Box<dyn Element>; 2] = [
@@ -95,7 +93,7 @@ pub(super) fn lay(
                 continue;
             }
             let natural = hex20::inverse_map(&host, places[end]);
-            let natural = natural.ok_or_else(|| no_host(bar, &ends[end]))?;
+            let natural = natural.ok_or_else(|| outside(end))?;
             let weights = hex20::shape(natural).0;
             let between: Vec<_> = around.into_iter().zip(weights).collect();
             pair = pair.map(|element| Led::hung(element, own[end], &between));
@@ -105,14 +103,4 @@ pub(super) fn lay(
         bonds.push(bond);
     }
     Ok((steel, bonds))
-}
-
-/// A point (mm) of a bar lies in no host.
-fn no_host(bar: &Bar, point: &Vector3<f64>) -> ElementError {
-    ElementError::NoHost {
-        bar: bar.name.clone(),
-        x: point[0],
-        y: point[1],
-        z: point[2],
-    }
 }
