@@ -138,9 +138,7 @@ impl ElementError {
         let bar = bar.into();
         Self::NoHost { bar, x, y, z }
     }
-}
 
-impl ElementError {
     /// Whether a shorter step may cure it.
     pub const fn is_recoverable(&self) -> bool {
         match self {
@@ -199,6 +197,12 @@ pub trait Element: Debug + Send + Sync {
     /// [`EvaluationContext::symmetric_part`] will do. The assembly takes that part itself from one that does not.
     fn fills_symmetric_part(&self) -> bool {
         false
+    }
+
+    /// Whether only the upper triangle (j >= i) of what [`evaluate`](Self::evaluate) fills counts.
+    fn fills_upper(&self, ctx: &EvaluationContext) -> bool {
+        let unsymmetric = self.unsymmetric() && ctx.operator == Operator::Tangent;
+        !unsymmetric || (ctx.symmetric_part && self.fills_symmetric_part())
     }
 
     /// See [`Material::latch`](crate::material::Material::latch), for every integration point.

@@ -5,7 +5,6 @@ use std::borrow::Cow;
 use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext};
 use fe_core::followers::Followers;
-use fe_core::material::Operator;
 use fe_core::mesh::NodeId;
 
 use crate::seen::{Seen, View};
@@ -89,12 +88,6 @@ impl Fold {
     }
 }
 
-/// Whether an element fills the upper triangle only.
-fn fills_upper(element: &dyn Element, ctx: &EvaluationContext) -> bool {
-    let unsymmetric = element.unsymmetric() && ctx.operator == Operator::Tangent;
-    !unsymmetric || (ctx.symmetric_part && element.fills_symmetric_part())
-}
-
 /// Leaders of `nodes`, each once, and column and entry of every row of T, node-major.
 pub(crate) fn columns(
     nodes: &[NodeId],
@@ -148,7 +141,7 @@ impl View for Fold {
                 out.force[c] += t * f;
             }
         }
-        let upper = fills_upper(element, ctx);
+        let upper = element.fills_upper(ctx);
         for (i, (k, row)) in stiffness.chunks_exact(n).zip(self.rows()).enumerate() {
             for (j, column) in self.rows().enumerate() {
                 let k = if upper && j < i {

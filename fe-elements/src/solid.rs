@@ -118,9 +118,8 @@ impl<I: Interpolation> SolidElement<I> {
                     *d = 0.5 * (*d + d.transpose());
                 }
             }
-            let symmetric = ctx.symmetric_part || !unsymmetric;
             self.interpolation
-                .add_stiffness(tangents, symmetric, stiffness);
+                .add_stiffness(tangents, self.fills_upper(ctx), stiffness);
         }
         self.interpolation.add_force(stresses, force);
         Ok(())

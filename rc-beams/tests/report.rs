@@ -21,7 +21,7 @@ fn store(folder: &Path, name: &str) {
     let summary = format!(
         r#"{{"specimen": "{name}", "preset": "default", "law": "fixed-crack", "driver": "secant",
         "integration": "full", "mesh": "60x4x1", "steps": 2, "peak_load_kn": 90.0,
-        "deflection_at_peak_mm": 2.0, "mode": "flexure", "mode_evidence": "bars yield",
+        "deflection_at_peak_mm": 2.0, "post_peak_drop": 0.2, "mode": "flexure", "mode_evidence": "bars yield",
         "trust": "limited", "trust_reason": "a jump", "stop_reason": "the load fell",
         "test_load_kn": 100.0, "wall_s": {{"total": 1.0}}}}"#
     );

@@ -203,12 +203,12 @@ impl Assembler {
                 }
                 if with_matrix {
                     let element = &model.elements()[e];
-                    let full = tangent && element.unsymmetric();
-                    let stiffness = &mut self.slots[k].stiffness;
-                    if full && !unsymmetric && !element.fills_symmetric_part() {
-                        fill_symmetric_part(stiffness, dofs.len());
+                    let full = !element.fills_upper(ctx);
+                    if full && ctx.symmetric_part {
+                        fill_symmetric_part(&mut self.slots[k].stiffness, dofs.len());
                     }
-                    self.add_matrix(e, &self.slots[k].stiffness, full && unsymmetric, out);
+                    let full = full && !ctx.symmetric_part;
+                    self.add_matrix(e, &self.slots[k].stiffness, full, out);
                 }
             }
         }

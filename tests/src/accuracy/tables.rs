@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::cases::{ALL, Case, DEFAULT, KNOWN, TWICE};
 use super::outcome::Outcome;
+use crate::sample::mean_and_variation;
 
 /// Results by case and beam.
 pub type Outcomes = BTreeMap<(&'static str, &'static str), Outcome>;
@@ -114,8 +115,8 @@ pub fn coverage(outcomes: &Outcomes) -> String {
 /// Mean and worst error, mean ratio and coefficient of variation of the beams whose tests are known.
 pub fn statistics(outcomes: &Outcomes) -> String {
     let errors = errors(outcomes, DEFAULT.name);
-    let ratio = 1.0 + mean(&errors, |e| e);
-    let deviation = mean(&errors, |e| (1.0 + e - ratio).powi(2)).sqrt();
+    let ratios: Vec<f64> = errors.iter().map(|e| 1.0 + e).collect();
+    let [ratio, variation] = mean_and_variation(&ratios);
     let worst = errors.iter().fold(0.0_f64, |a, e| a.max(e.abs()));
     format!(
         "Of {} beams whose tests are known: mean |error| {:.1} %, worst {:.0} %; mean of model over test {ratio:.3}, coefficient of \
@@ -123,7 +124,7 @@ pub fn statistics(outcomes: &Outcomes) -> String {
         errors.len(),
         100.0 * mean(&errors, f64::abs),
         100.0 * worst,
-        100.0 * deviation / ratio
+        100.0 * variation
     )
 }
 

@@ -49,7 +49,7 @@ fn median(times: usize, mut work: impl FnMut()) -> f64 {
     all[all.len() / 2]
 }
 
-/// Largest resident memory so far (MB).
+/// Largest resident memory so far (MiB).
 fn memory() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"));
@@ -154,7 +154,7 @@ fn linear_section(text: &mut String) -> Result<(), Box<dyn Error>> {
         text,
         "## Linear solution\n\nThe bare beam of 3050 x 305 x 75 mm with 8 points per element, one thread. Product of dense \
          matrices of 1200 on the same thread: {dense:.1} Gflop/s. Memory is the largest of the process up to there. Operations are those of a factor that stores no zeros.\n\n\
-         | mesh | equations | order | entries of the factor, 10^6 | Gflop | assembly, ms | analysis, ms | factorisation, ms | of the dense rate | on two threads, ms | solution, ms | from grid to reactions, ms | memory, MB | reaction, N |\n\
+         | mesh | equations | order | entries of the factor, 10^6 | Gflop | assembly, ms | analysis, ms | factorisation, ms | of the dense rate | on two threads, ms | solution, ms | from grid to reactions, ms | memory, MiB | reaction, N |\n\
          |---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
     )?;
     let mut rows = Vec::new();

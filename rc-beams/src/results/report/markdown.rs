@@ -6,6 +6,7 @@ use super::figures::Group;
 use super::stored::{Stored, StoredSheets};
 use super::{Report, counted};
 use crate::results::events::EventKind;
+use crate::results::mode::strengthened::LOST;
 use crate::results::sheets::Shown;
 
 /// The text of the report.
@@ -147,7 +148,11 @@ fn sheets(beams: &[Stored]) -> String {
                 beam.name.clone(),
                 format!("{:.0}", peak.stress_mpa),
                 format!("{:.1}", peak.force_kn),
-                format!("{:.1}", end.force_kn),
+                if beam.summary.post_peak_drop >= LOST {
+                    "lost with the load".to_owned()
+                } else {
+                    format!("{:.1}", end.force_kn)
+                },
                 format!("{:.0} %", 100.0 * peak.debonded),
                 format!("{:.0} %", 100.0 * end.debonded),
             ]

@@ -42,6 +42,7 @@ pub(super) struct StoredSummary {
     pub steps: usize,
     pub peak_load_kn: f64,
     pub deflection_at_peak_mm: f64,
+    pub post_peak_drop: f64,
     pub mode: String,
     pub mode_evidence: String,
     pub trust: String,
