@@ -10,10 +10,12 @@
 //!   [`envelope`]; [`PullOut`] is the closed form of what it does to a strip.
 //! - [`MixedMode`] is the law of delamination in opening and shear.
 //! - [`Viscous`] gives a law artificial viscosity, and counts what it costs.
+//! - [`case::BondCase`] is any of them as text.
 //! - [`Interface16`] is the element between two 8-node faces, [`BondSlip`] the one between a bar and the
 //!   hexahedra around it.
 
 mod bond_slip;
+pub mod case;
 pub mod envelope;
 mod interface16;
 mod limits;

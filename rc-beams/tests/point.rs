@@ -4,6 +4,7 @@ use std::fs;
 use std::process::{Command, Output};
 
 const BAR: &str = include_str!("../cases/cyclic-bar.ron");
+const BOND: &str = include_str!("../cases/sheet-bond.ron");
 
 fn point(case: &str) -> (Output, String, Option<String>) {
     let folder = tempfile::tempdir().unwrap();
@@ -83,6 +84,48 @@ fn mistakes_in_a_case_are_named_with_their_place() {
             "{to}: {message}"
         );
         assert_eq!(table, None, "{to}");
+    }
+}
+
+/// Source: Lu et al. (2005), bilinear. Targets: tau_max = 4.47 MPa, half of the way down (4.47 - tau)/(s - s0) = 4.47/(sf - s0), a
+/// straight line back to no slip, and no bond in the end.
+#[test]
+fn the_path_of_a_bond_is_written() {
+    let (output, message, table) = point(BOND);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    let table = table.unwrap();
+    assert!(table.starts_with("slip_1,slip_2,opening,tau_1,"), "{table}");
+    let rows: Vec<Vec<f64>> = table
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').map(|c| c.parse().unwrap()).collect())
+        .collect();
+    let strength = 1.5 * 2.98;
+    let slips = [0.0195 * 2.98, 2.0 * 0.308 * 2.98_f64.sqrt() / strength];
+    let down = strength * (slips[1] - 0.12) / (slips[1] - slips[0]);
+    assert!((rows[60][3] - down).abs() < 1e-9, "{}", rows[60][3]);
+    assert!((rows[70][3] - 0.5 * down).abs() < 1e-9, "{}", rows[70][3]);
+    assert!(rows[180][3] < 1e-4 * strength);
+}
+
+/// A case has a law or a bond; a mistake in the bond is told there.
+#[test]
+fn a_case_has_one_law() {
+    let both = BOND.replace("    bond:", "    law: ElasticBar(young_mpa: 1),\n    bond:");
+    let none = "(program: [])".to_owned();
+    let wrong = BOND.replace("width_ratio: 0.5", "width_ratio: 1.5");
+    for (case, words) in [
+        (both, "both of `law` and `bond` are given"),
+        (none, "none of `law` and `bond` are given"),
+        (wrong, "width_ratio"),
+    ] {
+        let (output, message, table) = point(&case);
+        assert_eq!(output.status.code(), Some(3), "{message}");
+        assert!(
+            message.contains(words) && message.contains("[case.ron:"),
+            "{message}"
+        );
+        assert_eq!(table, None);
     }
 }
 

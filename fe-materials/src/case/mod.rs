@@ -67,29 +67,34 @@ impl PointCase {
     pub fn run(&self) -> Result<PointRun, CaseError> {
         let ctx = self.law.context();
         match self.law.build()? {
-            BuiltLaw::Solid(law) => self.drive(law.as_ref(), ctx),
-            BuiltLaw::PlaneStress(law) => self.drive(law.as_ref(), ctx),
-            BuiltLaw::Axial(law) => self.drive(law.as_ref(), ctx),
+            BuiltLaw::Solid(law) => drive(law.as_ref(), ctx, &self.program),
+            BuiltLaw::PlaneStress(law) => drive(law.as_ref(), ctx, &self.program),
+            BuiltLaw::Axial(law) => drive(law.as_ref(), ctx, &self.program),
         }
     }
+}
 
-    fn drive<K: Kinematics>(
-        &self,
-        law: &dyn Material<K>,
-        ctx: PointContext,
-    ) -> Result<PointRun, CaseError> {
-        if self.program.is_empty() {
-            return Err(CaseError::NoSegments);
-        }
-        let segments = (1..)
-            .zip(&self.program)
-            .map(|(number, segment)| segment.build::<K>(number))
-            .collect::<Result<Vec<_>, _>>()?;
-        let mut driver = PointDriver::new(law, ctx)?;
-        let result = driver.run(&segments);
-        Ok(PointRun {
-            history: driver.history().clone(),
-            result,
-        })
+/// Drives a law of any kinematics through a program.
+///
+/// # Errors
+///
+/// As [`PointCase::run`].
+pub fn drive<K: Kinematics>(
+    law: &dyn Material<K>,
+    ctx: PointContext,
+    program: &[SegmentCase],
+) -> Result<PointRun, CaseError> {
+    if program.is_empty() {
+        return Err(CaseError::NoSegments);
     }
+    let segments = (1..)
+        .zip(program)
+        .map(|(number, segment)| segment.build::<K>(number))
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut driver = PointDriver::new(law, ctx)?;
+    let result = driver.run(&segments);
+    Ok(PointRun {
+        history: driver.history().clone(),
+        result,
+    })
 }
