@@ -1,6 +1,6 @@
 //! What models cost beside how near they come to the tests.
 
-use super::cases::{Case, DEFAULT, KINDS, NUMERICS};
+use super::cases::{Case, DEFAULT, KINDS, MOTION, NUMERICS};
 use super::outcome::Outcome;
 use super::tables::{Outcomes, fixed, header, mean, row};
 use crate::figure::{Chart, Series, svg};
@@ -22,7 +22,7 @@ struct Cost {
 
 /// The default, and the numerical settings that all beams of each kind were run with.
 fn costs(outcomes: &Outcomes) -> Vec<Cost> {
-    let cases = std::iter::once(&DEFAULT).chain(&NUMERICS);
+    let cases = std::iter::once(&DEFAULT).chain(&NUMERICS).chain([&MOTION]);
     let cost = |case: &'static Case| {
         let of = |name| -> Option<Vec<&Outcome>> {
             KINDS

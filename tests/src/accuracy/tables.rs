@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::cases::{ALL, Case, DEFAULT, KNOWN, TWICE};
+use super::cases::{ALL, Case, DEFAULT, KNOWN, MOTION, TWICE};
 use super::outcome::Outcome;
 use crate::sample::mean_and_variation;
 
@@ -44,6 +44,7 @@ pub fn beams(outcomes: &Outcomes) -> String {
         "finer mesh, %",
         "error bar, %",
         "twice the elements, %",
+        "slow motion, %",
         "factorisations",
         "evaluations",
         "tension over strength",
@@ -70,6 +71,7 @@ pub fn beams(outcomes: &Outcomes) -> String {
                 0,
             ),
             percent(change_by(outcomes, TWICE.name, beam)),
+            trusted_change(outcomes, MOTION.name, beam),
             fixed(Some(o.cost[0]), 2),
             fixed(Some(o.cost[1]), 1),
             fixed(o.number(&["tension_over_strength"]), 1),
@@ -82,6 +84,16 @@ pub fn beams(outcomes: &Outcomes) -> String {
 fn change_by(outcomes: &Outcomes, case: &'static str, beam: &'static str) -> Option<f64> {
     let peak = |case| outcomes.get(&(case, beam)).and_then(Outcome::peak);
     Some(peak(case)? / peak(DEFAULT.name)? - 1.0)
+}
+
+/// The same (%), marked where the run itself trusts little in it.
+fn trusted_change(outcomes: &Outcomes, case: &'static str, beam: &'static str) -> String {
+    let trust = outcomes.get(&(case, beam)).and_then(|o| o.text(&["trust"]));
+    let note = match trust {
+        Some("low") => " (trust low)",
+        _ => "",
+    };
+    percent(change_by(outcomes, case, beam)) + note
 }
 
 /// How many error bars reach the peak with half the steps, and with twice the elements.
@@ -146,18 +158,9 @@ pub fn changes(outcomes: &Outcomes, cases: &[Case]) -> String {
     let beams: Vec<&'static str> = ALL.into_iter().filter(concerned).collect();
     let mut text = header(&[&["", "options"], beams.as_slice()].concat());
     for case in cases {
-        let cells = beams.iter().map(|beam| {
-            let change = change_by(outcomes, case.name, beam);
-            let low = outcomes
-                .get(&(case.name, *beam))
-                .and_then(|o| o.text(&["trust"]));
-            let note = if low == Some("low") {
-                " (trust low)"
-            } else {
-                ""
-            };
-            percent(change) + note
-        });
+        let cells = beams
+            .iter()
+            .map(|beam| trusted_change(outcomes, case.name, beam));
         text += &row([case.what.to_owned(), case.written_options()]
             .into_iter()
             .chain(cells));

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use fe_tests::accuracy::cases::{COARSE, Case, DEFAULT, FINE, NUMERICS, PARAMETERS, TWICE};
+use fe_tests::accuracy::cases::{COARSE, Case, DEFAULT, FINE, MOTION, NUMERICS, PARAMETERS, TWICE};
 use fe_tests::accuracy::outcome::Outcome;
 use fe_tests::accuracy::tables::{Outcomes, beams, changes, coverage, sensitivities, statistics};
 use fe_tests::accuracy::{cost, scatter};
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = arguments
         .next()
         .unwrap_or_else(|| Path::new("results").join("accuracy"));
-    let runs: Vec<(&Case, &'static str)> = [&DEFAULT, &TWICE]
+    let runs: Vec<(&Case, &'static str)> = [&DEFAULT, &TWICE, &MOTION]
         .into_iter()
         .chain(&NUMERICS)
         .chain(&COARSE)
