@@ -108,6 +108,10 @@ pub struct Cracks {
     #[arg(long, value_enum)]
     pub compression_softening: Option<CompressionSoftening>,
 
+    /// What pressure from the sides does to compression; without it, that of the preset
+    #[arg(long, value_enum)]
+    pub confinement: Option<Confinement>,
+
     /// Distance of cracks, over which narrower elements share one (mm)
     #[arg(long, value_name = "MM", value_parser = crack_spacing, allow_negative_numbers = true)]
     pub crack_spacing_mm: Option<f64>,
@@ -169,6 +173,16 @@ pub enum CompressionSoftening {
     VecchioCollinsSlip,
 }
 
+/// What pressure from the sides does to compression.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Confinement {
+    /// Nothing
+    None,
+    /// Concrete gets stronger, as in tests with two and three axes pressed
+    Vecchio,
+}
+
 /// Set of modelling choices.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
@@ -179,7 +193,7 @@ pub enum Preset {
     /// As physical, but with the sheets of the reference: fibres of the soffit along the beam, shear modulus E/2
     Reference,
     /// The reported strength is characteristic (mean: 8 MPa more); reduced integration, no dowel action, no interlock,
-    /// no compression softening, linear softening in tension, half the band width
+    /// no compression softening, no confinement, linear softening in tension, half the band width
     Characteristic,
 }
 

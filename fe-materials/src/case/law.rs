@@ -10,7 +10,8 @@ use crate::concrete::{
     ShearRetention, TensionStiffening,
 };
 use crate::fixed_crack::{
-    CompressionSoftening, FixedCrack, FixedCrackParameters, ShearTransfer, TensionSoftening,
+    CompressionSoftening, Confinement, FixedCrack, FixedCrackParameters, ShearTransfer,
+    TensionSoftening,
 };
 use crate::{Biso, Elastic, Hardening, Lamina, LaminaParameters, Laminate, Ply, VonMises};
 
@@ -108,6 +109,9 @@ pub enum LawCase {
         /// What cracks do to the compression across them.
         #[serde(default)]
         compression_softening: CompressionSoftening,
+        /// What pressure from the sides does to compression.
+        #[serde(default)]
+        confinement: Confinement,
         /// Distance of cracks (mm).
         #[serde(default)]
         crack_spacing_mm: Option<f64>,
@@ -243,6 +247,7 @@ impl LawCase {
                 tension_softening,
                 shear_transfer,
                 compression_softening,
+                confinement,
                 crack_spacing_mm,
                 fixing_share,
                 ottosen_onset,
@@ -260,6 +265,7 @@ impl LawCase {
                     tension_softening: *tension_softening,
                     shear_transfer: shear_transfer.unwrap_or(default.shear_transfer),
                     compression_softening: *compression_softening,
+                    confinement: *confinement,
                     crack_spacing_mm: crack_spacing_mm.unwrap_or(default.crack_spacing_mm),
                     fixing_share: fixing_share.unwrap_or(default.fixing_share),
                     ..default

@@ -7,7 +7,7 @@ use fe_core::voigt::{SHEAR_PAIRS, strain_into, strain_tensor, strain_transform, 
 use nalgebra::{Matrix6, Vector6};
 
 use super::shear::{Factor, Retention};
-use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, State, wants_secant, wants_tangent};
+use super::{Envelopes, FixedCrack, Growth, OPERATOR_FLOOR, State, wants_secant, wants_tangent};
 
 impl FixedCrack {
     /// Stress of a cracked point; updates the histories. `onset` tells that the first crack opens in this very
@@ -51,44 +51,48 @@ impl FixedCrack {
             _ => 2,
         };
         state.kc[2] = state.kc[turned..].iter().copied().fold(0.0, f64::max);
-        let grow_c: [f64; 3] = std::array::from_fn(|i| -e[i] - state.kc[i]);
-        for (k, growth) in state.kc.iter_mut().zip(grow_c) {
-            *k += ctx.relaxation * growth.max(0.0);
-        }
         let last = state.kc[2];
         state.kc[turned..].fill(last);
+        let driven = std::array::from_fn(|i| if i >= turned { 2 } else { i });
+        let strains = (&[e[0], e[1], e[2]], &state.kc, driven);
+        let press = |i| self.pressed(strains, i, (ctx.relaxation, compression));
+        let grown: [Growth; 3] = driven.map(press);
+        state.kc = grown.map(|growth| growth.kc);
         for i in 0..3 {
-            let pressed = if i >= turned { 2 } else { i };
             state.crushing = state.crushing.max(compression.crushing(state.kc[i]));
             let (soft, soft_slopes) = self.softening(&state.kt, i, ctx.band_width);
             let (bridged, by_kt) = tension[i].secant(state.kt[i]);
             let bridged_slope = retention.growing[i] * by_kt;
             let (whole, by_kc) = compression.secant(state.kc[i]);
-            let whole_slope = -growing(grow_c[pressed]) * by_kc;
-            let (secant, slope, of) = if e[i] >= 0.0 {
-                (bridged, bridged_slope, i)
-            } else {
-                (soft * whole, soft * whole_slope, pressed)
+            let along = |slope| std::array::from_fn(|j| if j == i { slope } else { 0.0 });
+            let bridged = Factor {
+                value: bridged,
+                slopes: along(bridged_slope),
             };
+            let whole = Factor {
+                value: whole,
+                slopes: grown[i].slopes.map(|slope| by_kc * slope),
+            };
+            let of_modulus = if e[i] >= 0.0 {
+                bridged
+            } else {
+                whole.times(soft)
+            };
+            let secant = of_modulus.value;
             local[i] = secant * e[i];
             if wants_secant(ctx) {
                 d[(i, i)] = secant.max(OPERATOR_FLOOR * young);
             } else if derive {
                 d[(i, i)] = secant;
-                d[(i, of)] += slope * e[i];
-                if e[i] < 0.0 {
-                    for j in (0..3).filter(|&j| j != i) {
-                        d[(i, j)] += retention.growing[j] * soft_slopes[j] * whole * e[i];
+                for j in 0..3 {
+                    d[(i, j)] += of_modulus.slopes[j] * e[i];
+                    if e[i] < 0.0 && j != i {
+                        d[(i, j)] += retention.growing[j] * soft_slopes[j] * whole.value * e[i];
                     }
                 }
             }
-            let factor = |modulus, slope, axis| Factor {
-                value: modulus / young,
-                slope: slope / young,
-                axis,
-            };
-            retention.tension[i] = factor(bridged, bridged_slope, i);
-            retention.compression[i] = factor(whole, whole_slope, pressed);
+            retention.tension[i] = bridged.times(1.0 / young);
+            retention.compression[i] = whole.times(1.0 / young);
         }
         let shear = self.shear(state, (&e, ctx), &retention, (&local, &d));
         for (k, (i, j)) in SHEAR_PAIRS.into_iter().enumerate() {

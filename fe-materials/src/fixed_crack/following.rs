@@ -30,8 +30,10 @@ impl FixedCrack {
         let (e, axes) = principal(&strain_tensor(strain));
         let grown = |k: f64, e: f64| k + ctx.relaxation * (e - k).max(0.0);
         let kt = std::array::from_fn(|i| grown(state.kt[i], e[i]));
-        let kc = state.kc.into_iter().fold(0.0, f64::max);
-        let whole = envelopes.compression.secant(grown(kc, -e[2])).0;
+        let kc = [state.kc.into_iter().fold(0.0, f64::max); 3];
+        let compression = &envelopes.compression;
+        let pressed = self.pressed((e.as_ref(), &kc, [2; 3]), 2, (ctx.relaxation, compression));
+        let whole = compression.secant(pressed.kc).0;
         let stress = |i: usize| {
             let secant = if e[i] >= 0.0 {
                 tension[i].secant(kt[i]).0

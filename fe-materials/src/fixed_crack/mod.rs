@@ -5,7 +5,9 @@
 //!
 //! sigma_i = E e~_i for e~_i >= 0,  sigma_i = Ec(kc_i) e~_i for e~_i < 0,
 //!
-//! Ec being the secant of the compression envelope at kc_i, the largest compressive e~_i ever.
+//! Ec being the secant of the compression envelope at kc_i, the largest -e~_i/K_i ever. K_i >= 1 is the
+//! [confinement](Confinement) by the pressures on the other axes, p_j = Ec <-e~_j> as if nothing confined those: it makes
+//! concrete stronger by slowing the history down, so that pressure which comes and goes creates no energy.
 //!
 //! **Onset.** A crack opens when sigma_1 >= ft, or when the Ottosen surface is reached with
 //! sigma_1 >= ft/2 (CEB Bulletin 156). Its normal n, the principal axis, then freezes, and Poisson's ratio is zero. The
@@ -15,7 +17,7 @@
 //! more than that share of its strength, there is no second crack, and the stresses in the axes are in the order of the strains
 //! (between the fixed and the rotating crack, Cervenka 1985).
 //!
-//! **Cracked**, in these axes, with the histories kt_i = max e_i and kc_i = max(-e_i),
+//! **Cracked**, in these axes, with the histories kt_i = max e_i and kc_i = max(-e_i/K_i), p_j = Ec <-e_j>,
 //!
 //! sigma_i = Et(kt_i) e_i for e_i >= 0,  beta_i Ec(kc_i) e_i for e_i < 0,
 //! tau = b G0 gamma,  b = max(b_min, min over the axes of Et(kt)/E and Ec(kc)/E),
@@ -33,6 +35,7 @@
 //! k' = <e - k>/tau, a = dt/(tau + dt)).
 
 mod compression_softening;
+mod confinement;
 mod cracked;
 mod curves;
 mod following;
@@ -52,6 +55,7 @@ use fe_core::voigt::{strain_components, strain_into, strain_tensor};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 pub use compression_softening::CompressionSoftening;
+pub use confinement::Confinement;
 pub use curves::TensionSoftening;
 use curves::{Compression, Tension};
 pub use shear_transfer::ShearTransfer;
@@ -91,6 +95,8 @@ pub struct FixedCrackParameters {
     pub shear_transfer: ShearTransfer,
     /// What cracks do to the compression across them.
     pub compression_softening: CompressionSoftening,
+    /// What pressure across an axis does to the compression along it.
+    pub confinement: Confinement,
     /// Distance of cracks s (mm), see [`Self::crack_reach`].
     pub crack_spacing_mm: f64,
     /// Share of the strength at onset (-), in (0, 1], above which the axes of a crack follow the strain; 1: fixed at the onset.
@@ -129,6 +135,7 @@ impl FixedCrackParameters {
                 aggregate_mm: AGGREGATE_MM,
             },
             compression_softening: CompressionSoftening::default(),
+            confinement: Confinement::default(),
             crack_spacing_mm: CRACK_SPACING_MM,
             fixing_share: FIXING_SHARE,
         }
@@ -343,6 +350,44 @@ impl FixedCrack {
         })
     }
 
+    /// How the compressive history of axis `i` grows, from the strains along the axes and the histories before the step, that of
+    /// axis j being driven by axis `driven[j]`. The pressures are those of axes that nothing confines: so they do not depend on
+    /// the step that leads to them.
+    fn pressed(
+        &self,
+        (e, kc, driven): (&[f64; 3], &[f64; 3], [usize; 3]),
+        i: usize,
+        (relaxation, compression): (f64, &Compression),
+    ) -> Growth {
+        let mut pressures = [0.0; 3];
+        // Derivatives of the pressures with respect to the strains.
+        let mut rates = Matrix3::zeros();
+        for j in (0..3).filter(|&j| j != i && e[j] < 0.0) {
+            let by = driven[j];
+            let (modulus, by_kc) = compression.secant(kc[j].max(-e[by]));
+            pressures[j] = -modulus * e[j];
+            rates[(j, j)] -= modulus;
+            if -e[by] > kc[j] {
+                rates[(j, by)] += by_kc * e[j];
+            }
+        }
+        let (factor, by_pressure) = self.p.confinement.factor(self.p.fcm_mpa, &pressures, i);
+        let excess = -e[i] / factor - kc[i];
+        if excess <= 0.0 {
+            return Growth {
+                kc: kc[i],
+                slopes: [0.0; 3],
+            };
+        }
+        let by_strain = rates.tr_mul(&Vector3::from(by_pressure));
+        let mut slopes = by_strain * (relaxation * e[i] / (factor * factor));
+        slopes[i] -= relaxation / factor;
+        Growth {
+            kc: kc[i] + relaxation * excess,
+            slopes: slopes.into(),
+        }
+    }
+
     /// Tension across the axes of a cracked point.
     fn tension(
         &self,
@@ -358,6 +403,13 @@ impl FixedCrack {
         };
         Ok([first, other, other])
     }
+}
+
+/// A compressive history and its derivatives with respect to the strains along the axes.
+#[derive(Debug, Clone, Copy)]
+struct Growth {
+    kc: f64,
+    slopes: [f64; 3],
 }
 
 /// Envelopes of all points of a crack-band width: tension from the tensile strength, and compression.

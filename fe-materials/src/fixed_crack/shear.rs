@@ -10,12 +10,21 @@ use super::{FixedCrack, State, wants_tangent};
 /// the first crack, in whose plane the other axes may still turn, and the shear in its plane.
 const PLANES: [(&[usize], &[usize]); 2] = [(&[0, 2], &[0, 1, 2]), (&[1], &[1, 2])];
 
-/// A factor on a modulus and its derivative with respect to the strain of one axis.
+/// A modulus or a share of one, and its derivatives with respect to the strains along the axes.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Factor {
     pub(super) value: f64,
-    pub(super) slope: f64,
-    pub(super) axis: usize,
+    pub(super) slopes: [f64; 3],
+}
+
+impl Factor {
+    /// The same times a constant.
+    pub(super) fn times(self, constant: f64) -> Self {
+        Self {
+            value: constant * self.value,
+            slopes: self.slopes.map(|slope| constant * slope),
+        }
+    }
 }
 
 fn least(a: Factor, b: Factor) -> Factor {
@@ -62,10 +71,13 @@ impl FixedCrack {
             let interlock = self.interlock(state.kt[open], reach);
             let tension = axes.iter().map(|&i| retention.tension[i]);
             let bridged = tension.fold(crushed, least);
-            let slips = interlock.map(|lock| Factor {
-                value: lock.factor.0,
-                slope: lock.factor.1 * opening,
-                axis: open,
+            let slips = interlock.map(|lock| {
+                let mut slopes = [0.0; 3];
+                slopes[open] = lock.factor.1 * opening;
+                Factor {
+                    value: lock.factor.0,
+                    slopes,
+                }
             });
             let slips = slips.map(|slips| least(slips, crushed));
             let share = self.share(bridged, slips, state.shares[kept]);
@@ -78,7 +90,7 @@ impl FixedCrack {
             // Derivatives of the carried share.
             let mut slopes = Vector6::zeros();
             if derive {
-                slopes[share.axis] = share.slope;
+                slopes.fixed_rows_mut::<3>(0).copy_from_slice(&share.slopes);
             }
             if let Some(v) = strength {
                 let rate = ctx.relaxation;
@@ -111,16 +123,12 @@ impl FixedCrack {
         let larger = slips.filter(|slips| slips.value > bridged.value);
         let share = larger.unwrap_or(bridged);
         let value = share.value.max(self.p.shear_floor).min(kept);
-        let slope = if value == share.value {
-            share.slope
+        let slopes = if value == share.value {
+            share.slopes
         } else {
-            0.0
+            [0.0; 3]
         };
-        Factor {
-            value,
-            slope,
-            ..share
-        }
+        Factor { value, slopes }
     }
 
     /// Free energy (MPa) of the shear at local strains `e`.

@@ -5,8 +5,8 @@ use fe_core::testing::{MaterialCheck, check_material};
 use nalgebra::Vector6;
 
 use super::{
-    CRACK_SPACING_MM, CompressionSoftening, FixedCrack, FixedCrackParameters, ShearTransfer,
-    TensionSoftening,
+    CRACK_SPACING_MM, CompressionSoftening, Confinement, FixedCrack, FixedCrackParameters,
+    ShearTransfer, TensionSoftening,
 };
 use crate::concrete::{Calibration, Ottosen};
 
@@ -429,6 +429,67 @@ fn axes_are_fixed_where_the_order_of_stresses_would_turn() {
     }
 }
 
+/// Largest stress (MPa) along the first axis on a straight path of strains without Poisson's effect, and the stress on the second
+/// there.
+fn strength_along(direction: [f64; 3], confinement: Confinement) -> [f64; 2] {
+    let mut point = Point::new(build(FixedCrackParameters {
+        poisson: 0.0,
+        confinement,
+        ..parameters()
+    }));
+    let [x, y, z] = direction;
+    let path = (1..400).map(|i| -1e-5 * f64::from(i) * Vector6::new(x, y, z, 0.0, 0.0, 0.0));
+    let stresses = path.map(|strain| point.stress(strain));
+    let most = stresses.fold(Vector6::zeros(), |a, b| if b[0] < a[0] { b } else { a });
+    [-most[0], -most[1]]
+}
+
+/// Source: Kupfer, Hilsdorf and Ruesch (1969): 1.16 fcm where both axes are pressed alike, 1.27 fcm at half the pressure; three axes
+/// by Richart, Brandtzaeg and Brown (1928): fcm + 4.1 p. Targets: 3 % more or less in two axes, as the pressure itself comes
+/// from a curve; up to 10 % less in three, as it counts as if nothing confined it. Without confinement every axis has fcm.
+#[test]
+fn concrete_that_is_pressed_from_the_sides_is_stronger() {
+    let fcm = parameters().fcm_mpa;
+    let [alike, _] = strength_along([1.0, 1.0, 0.0], Confinement::Vecchio);
+    assert!((alike / fcm / 1.16 - 1.0).abs() < 0.03, "{alike}");
+    let ratios =
+        (1..20).map(|i| strength_along([1.0, 0.02 * f64::from(i), 0.0], Confinement::Vecchio));
+    let half = ratios
+        .min_by_key(|[a, b]| (1e6 * (b / a - 0.5).abs()) as u64)
+        .unwrap();
+    assert!((half[0] / fcm / 1.27 - 1.0).abs() < 0.03, "{half:?}");
+    let [strength, pressure] = strength_along([1.0, 0.1, 0.1], Confinement::Vecchio);
+    assert!(pressure > 0.1 * fcm, "{pressure}");
+    let expected = fcm + 4.1 * pressure;
+    assert!(
+        (0.9..1.0).contains(&(strength / expected)),
+        "{strength}, {expected}"
+    );
+    for direction in [[1.0, 1.0, 0.0], [1.0, 0.1, 0.1]] {
+        let [plain, _] = strength_along(direction, Confinement::None);
+        assert!((plain / fcm - 1.0).abs() < 1e-3, "{plain}");
+    }
+}
+
+/// Pressure that comes after the compression changes nothing of the stress along it, and takes nothing away when it goes: it slows
+/// the history down and is no spring.
+#[test]
+fn confinement_slows_the_history_down() {
+    let mut point = Point::new(build(FixedCrackParameters {
+        poisson: 0.0,
+        ..parameters()
+    }));
+    let strain = |x: f64, y: f64| Vector6::new(-x, -y, 0.0, 0.0, 0.0, 0.0);
+    let peak = parameters().eps_c1;
+    let alone = point.stress(strain(peak, 0.0))[0];
+    let pressed = point.stress(strain(peak, 0.3 * peak))[0];
+    assert_eq!(alone, pressed);
+    let further = point.stress(strain(1.2 * peak, 0.3 * peak))[0];
+    assert!(further < 1.1 * alone, "{further}, {alone}");
+    let released = point.stress(strain(1.2 * peak, 0.0))[0];
+    assert!((released / alone - 1.0).abs() < 0.05, "{released}, {alone}");
+}
+
 /// Contract of a law on 10^4 random paths: repeatable, latched, tangent to 1e-6, secant positive definite,
 /// and no energy created once cracked.
 #[test]
@@ -438,6 +499,7 @@ fn conforms() {
         tension_softening: TensionSoftening::Linear,
         shear_transfer: ShearTransfer::Damage,
         compression_softening: CompressionSoftening::None,
+        confinement: Confinement::None,
         ..parameters()
     };
     let fixing = |fixing_share| FixedCrackParameters {

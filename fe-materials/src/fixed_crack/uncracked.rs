@@ -4,7 +4,7 @@ use fe_core::kinematics::Solid;
 use fe_core::material::{Operator, PointContext, Response};
 use fe_core::principal::Principal;
 use fe_core::voigt::{SHEAR_PAIRS, strain_transform, stress_along};
-use nalgebra::{Matrix6, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, State, wants_secant};
 
@@ -25,21 +25,22 @@ impl FixedCrack {
         );
         let equivalent: Vector3<f64> = e.map(|ei| (q1 - q2) * ei) + Vector3::repeat(q2 * e.sum());
         let committed_kc = state.kc;
-        let mut secant = [0.0; 3];
-        let mut slope = [0.0; 3];
+        let mut secant = [self.p.young_mpa; 3];
+        // Derivatives of the stresses with respect to the equivalent strains.
+        let mut slopes = Matrix3::from_diagonal_element(self.p.young_mpa);
         for i in 0..3 {
             let c = equivalent[i];
-            let excess = -c - committed_kc[i];
-            state.kc[i] = committed_kc[i] + ctx.relaxation * excess.max(0.0);
             if c >= 0.0 {
-                secant[i] = self.p.young_mpa;
-                slope[i] = self.p.young_mpa;
-            } else {
-                let (modulus, by_kc) = compression.secant(state.kc[i]);
-                secant[i] = modulus;
-                let growth = if excess > 0.0 { ctx.relaxation } else { 0.0 };
-                // d(secant c)/dc with dkc/dc = -a.
-                slope[i] = modulus - growth * by_kc * c;
+                continue;
+            }
+            let strains = (equivalent.as_ref(), &committed_kc, [0, 1, 2]);
+            let growth = self.pressed(strains, i, (ctx.relaxation, compression));
+            state.kc[i] = growth.kc;
+            let (modulus, by_kc) = compression.secant(growth.kc);
+            secant[i] = modulus;
+            slopes[(i, i)] = modulus;
+            for j in 0..3 {
+                slopes[(i, j)] += by_kc * growth.slopes[j] * c;
             }
         }
         let stress = Vector3::from_fn(|i, _| secant[i] * equivalent[i]);
@@ -59,14 +60,14 @@ impl FixedCrack {
         if ctx.operator != Operator::None {
             let t = strain_transform(&axes);
             let mut d = Matrix6::zeros();
+            let q = |i, j| if i == j { q1 } else { q2 };
             for i in 0..3 {
                 for j in 0..3 {
-                    let q = if i == j { q1 } else { q2 };
                     d[(i, j)] = if wants_secant(ctx) {
                         let floor = OPERATOR_FLOOR * self.p.young_mpa;
-                        (secant[i].max(floor) * secant[j].max(floor)).sqrt() * q
+                        (secant[i].max(floor) * secant[j].max(floor)).sqrt() * q(i, j)
                     } else {
-                        slope[i] * q
+                        (0..3).map(|l| slopes[(i, l)] * q(l, j)).sum()
                     };
                 }
             }
@@ -77,7 +78,7 @@ impl FixedCrack {
                 let g = if gap.abs() > 1e-6 * scale {
                     (stress[i] - stress[j]) / (2.0 * gap)
                 } else {
-                    0.5 * (q1 - q2) * slope[i].midpoint(slope[j])
+                    0.25 * (d[(i, i)] - d[(i, j)] - d[(j, i)] + d[(j, j)])
                 };
                 d[(3 + k, 3 + k)] = if wants_secant(ctx) {
                     g.max(OPERATOR_FLOOR * self.shear_modulus)

@@ -77,6 +77,7 @@ fn concrete(
                 tension_softening: settings.tension_softening,
                 shear_transfer: settings.shear_transfer,
                 compression_softening: settings.compression_softening,
+                confinement: settings.confinement,
                 crack_spacing_mm: settings.crack_spacing_mm,
                 fixing_share: settings.fixing_share,
                 ..source

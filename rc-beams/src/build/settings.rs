@@ -2,7 +2,7 @@
 
 use fe_elements::{BandWidth, HexRule};
 use fe_materials::fixed_crack::{
-    AGGREGATE_MM, CRACK_SPACING_MM, CompressionSoftening, FIXING_SHARE, ShearTransfer,
+    AGGREGATE_MM, CRACK_SPACING_MM, CompressionSoftening, Confinement, FIXING_SHARE, ShearTransfer,
     TensionSoftening,
 };
 
@@ -29,6 +29,8 @@ pub struct ModelSettings {
     pub shear_transfer: ShearTransfer,
     /// What its cracks do to the compression across them.
     pub compression_softening: CompressionSoftening,
+    /// What pressure from the sides does to compression.
+    pub confinement: Confinement,
     /// Distance of its cracks (mm).
     pub crack_spacing_mm: f64,
     /// Share of the strength bridged at which the axes of a crack are fixed (-).
@@ -70,6 +72,7 @@ impl ModelSettings {
                 aggregate_mm: AGGREGATE_MM,
             },
             compression_softening: CompressionSoftening::default(),
+            confinement: Confinement::default(),
             crack_spacing_mm: CRACK_SPACING_MM,
             fixing_share: FIXING_SHARE,
             shear_floor: 1e-4,
@@ -89,6 +92,7 @@ impl ModelSettings {
                 tension_softening: TensionSoftening::Linear,
                 shear_transfer: ShearTransfer::Damage,
                 compression_softening: CompressionSoftening::None,
+                confinement: Confinement::None,
                 fixing_share: 1.0,
                 shear_floor: 1e-3,
                 band_factor: 0.5,
@@ -101,7 +105,7 @@ impl ModelSettings {
     #[must_use]
     pub fn with_cracks(mut self, given: &Cracks) -> Self {
         use crate::options::{
-            CompressionSoftening as Compression, ShearTransfer as Shear,
+            CompressionSoftening as Compression, Confinement as Pressed, ShearTransfer as Shear,
             TensionSoftening as Tension,
         };
         if let Some(shape) = given.tension_softening {
@@ -128,6 +132,12 @@ impl ModelSettings {
                 Compression::None => CompressionSoftening::None,
                 Compression::VecchioCollins => CompressionSoftening::VecchioCollins,
                 Compression::VecchioCollinsSlip => CompressionSoftening::VecchioCollinsSlip,
+            };
+        }
+        if let Some(confinement) = given.confinement {
+            self.confinement = match confinement {
+                Pressed::None => Confinement::None,
+                Pressed::Vecchio => Confinement::Vecchio,
             };
         }
         self.crack_spacing_mm = given.crack_spacing_mm.unwrap_or(self.crack_spacing_mm);
