@@ -4,6 +4,7 @@
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Deserialize)]
 pub enum Confinement {
     /// Nothing.
+    #[default]
     None,
     /// Strength and the strains of the whole compression curve are scaled by
     ///
@@ -12,7 +13,6 @@ pub enum Confinement {
     /// p_1 >= p_2 >= 0 being the pressures on the other two axes (Vecchio 1992, after Kupfer, Hilsdorf and Ruesch 1969 in
     /// two axes and Richart, Brandtzaeg and Brown 1928 in three, at second hand): 1.16 where two axes are pressed alike, 1.28
     /// where one is pressed half as much as the other.
-    #[default]
     Vecchio,
 }
 

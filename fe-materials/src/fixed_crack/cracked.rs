@@ -6,8 +6,8 @@ use fe_core::principal::principal;
 use fe_core::voigt::{SHEAR_PAIRS, strain_into, strain_tensor, strain_transform, stress_out_of};
 use nalgebra::{Matrix6, Vector6};
 
-use super::shear::{Factor, Retention};
-use super::{Envelopes, FixedCrack, Growth, OPERATOR_FLOOR, State, wants_secant, wants_tangent};
+use super::shear::{Factor, HISTORY, Retention};
+use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, Pressed, State, wants_secant, wants_tangent};
 
 impl FixedCrack {
     /// Stress of a cracked point; updates the histories. `onset` tells that the first crack opens in this very
@@ -54,45 +54,50 @@ impl FixedCrack {
         let last = state.kc[2];
         state.kc[turned..].fill(last);
         let driven = std::array::from_fn(|i| if i >= turned { 2 } else { i });
-        let strains = (&[e[0], e[1], e[2]], &state.kc, driven);
-        let press = |i| self.pressed(strains, i, (ctx.relaxation, compression));
-        let grown: [Growth; 3] = driven.map(press);
-        state.kc = grown.map(|growth| growth.kc);
+        let before = state.kc;
+        let strains = Pressed {
+            e: &[e[0], e[1], e[2]],
+            kc: &before,
+            driven,
+            relaxation: ctx.relaxation,
+        };
+        let grown = self.pressed(&strains, compression);
+        state.kc = grown;
+        state.kc[turned..].fill(grown[2]);
+        if derive {
+            retention.pressed = Some(self.pressed_slopes(&strains, compression));
+        }
         for i in 0..3 {
             state.crushing = state.crushing.max(compression.crushing(state.kc[i]));
             let (soft, soft_slopes) = self.softening(&state.kt, i, ctx.band_width);
             let (bridged, by_kt) = tension[i].secant(state.kt[i]);
             let bridged_slope = retention.growing[i] * by_kt;
             let (whole, by_kc) = compression.secant(state.kc[i]);
-            let along = |slope| std::array::from_fn(|j| if j == i { slope } else { 0.0 });
-            let bridged = Factor {
-                value: bridged,
-                slopes: along(bridged_slope),
-            };
-            let whole = Factor {
-                value: whole,
-                slopes: grown[i].slopes.map(|slope| by_kc * slope),
-            };
-            let of_modulus = if e[i] >= 0.0 {
-                bridged
-            } else {
-                whole.times(soft)
-            };
-            let secant = of_modulus.value;
+            let secant = if e[i] >= 0.0 { bridged } else { soft * whole };
             local[i] = secant * e[i];
             if wants_secant(ctx) {
                 d[(i, i)] = secant.max(OPERATOR_FLOOR * young);
             } else if derive {
                 d[(i, i)] = secant;
-                for j in 0..3 {
-                    d[(i, j)] += of_modulus.slopes[j] * e[i];
-                    if e[i] < 0.0 && j != i {
-                        d[(i, j)] += retention.growing[j] * soft_slopes[j] * whole.value * e[i];
+                if e[i] >= 0.0 {
+                    d[(i, i)] += bridged_slope * e[i];
+                } else {
+                    let by_strain = retention.pressed.map_or([0.0; 3], |by| by[driven[i]]);
+                    for j in 0..3 {
+                        d[(i, j)] += soft * by_kc * by_strain[j] * e[i];
+                        if j != i {
+                            d[(i, j)] += retention.growing[j] * soft_slopes[j] * whole * e[i];
+                        }
                     }
                 }
             }
-            retention.tension[i] = bridged.times(1.0 / young);
-            retention.compression[i] = whole.times(1.0 / young);
+            let factor = |modulus, slope, axis| Factor {
+                value: modulus / young,
+                slope: slope / young,
+                axis,
+            };
+            retention.tension[i] = factor(bridged, bridged_slope, i);
+            retention.compression[i] = factor(whole, by_kc, HISTORY + driven[i]);
         }
         let shear = self.shear(state, (&e, ctx), &retention, (&local, &d));
         for (k, (i, j)) in SHEAR_PAIRS.into_iter().enumerate() {

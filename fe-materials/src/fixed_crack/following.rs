@@ -6,7 +6,7 @@ use fe_core::voigt::strain_tensor;
 use nalgebra::Vector6;
 
 use super::curves::Tension;
-use super::{Envelopes, FixedCrack, State};
+use super::{Envelopes, FixedCrack, Pressed, State};
 
 /// Share of the tensile strength up to which stresses are equal, as those of an open crack and of its sound plane are.
 const TIE: f64 = 1e-6;
@@ -32,8 +32,14 @@ impl FixedCrack {
         let kt = std::array::from_fn(|i| grown(state.kt[i], e[i]));
         let kc = [state.kc.into_iter().fold(0.0, f64::max); 3];
         let compression = &envelopes.compression;
-        let pressed = self.pressed((e.as_ref(), &kc, [2; 3]), 2, (ctx.relaxation, compression));
-        let whole = compression.secant(pressed.kc).0;
+        let strains = Pressed {
+            e: e.as_ref(),
+            kc: &kc,
+            driven: [2; 3],
+            relaxation: ctx.relaxation,
+        };
+        let [_, _, last] = self.pressed(&strains, compression);
+        let whole = compression.secant(last).0;
         let stress = |i: usize| {
             let secant = if e[i] >= 0.0 {
                 tension[i].secant(kt[i]).0

@@ -350,19 +350,36 @@ impl FixedCrack {
         })
     }
 
-    /// How the compressive history of axis `i` grows, from the strains along the axes and the histories before the step, that of
-    /// axis j being driven by axis `driven[j]`. The pressures are those of axes that nothing confines: so they do not depend on
-    /// the step that leads to them.
-    fn pressed(
-        &self,
-        (e, kc, driven): (&[f64; 3], &[f64; 3], [usize; 3]),
-        i: usize,
-        (relaxation, compression): (f64, &Compression),
-    ) -> Growth {
+    /// The compressive histories at a step's end.
+    #[inline]
+    fn pressed(&self, strains: &Pressed<'_>, compression: &Compression) -> [f64; 3] {
+        if self.p.confinement == Confinement::None {
+            return [0, 1, 2].map(|i| strains.grown(i, 1.0));
+        }
+        self.confined(strains, compression).map(|growth| growth.kc)
+    }
+
+    /// Their derivatives with respect to the strains.
+    #[inline(never)]
+    fn pressed_slopes(&self, strains: &Pressed<'_>, compression: &Compression) -> [[f64; 3]; 3] {
+        self.confined(strains, compression)
+            .map(|growth| growth.slopes)
+    }
+
+    /// Both with confinement; apart, so that points without any do not pay for it. The pressures are those of axes that nothing confines: so they do not depend on the step that leads
+    /// to them.
+    #[inline(never)]
+    fn confined(&self, strains: &Pressed<'_>, compression: &Compression) -> [Growth; 3] {
+        let Pressed {
+            e,
+            kc,
+            driven,
+            relaxation,
+        } = strains;
         let mut pressures = [0.0; 3];
         // Derivatives of the pressures with respect to the strains.
         let mut rates = Matrix3::zeros();
-        for j in (0..3).filter(|&j| j != i && e[j] < 0.0) {
+        for j in (0..3).filter(|&j| e[j] < 0.0) {
             let by = driven[j];
             let (modulus, by_kc) = compression.secant(kc[j].max(-e[by]));
             pressures[j] = -modulus * e[j];
@@ -371,21 +388,20 @@ impl FixedCrack {
                 rates[(j, by)] += by_kc * e[j];
             }
         }
-        let (factor, by_pressure) = self.p.confinement.factor(self.p.fcm_mpa, &pressures, i);
-        let excess = -e[i] / factor - kc[i];
-        if excess <= 0.0 {
-            return Growth {
-                kc: kc[i],
-                slopes: [0.0; 3],
-            };
-        }
-        let by_strain = rates.tr_mul(&Vector3::from(by_pressure));
-        let mut slopes = by_strain * (relaxation * e[i] / (factor * factor));
-        slopes[i] -= relaxation / factor;
-        Growth {
-            kc: kc[i] + relaxation * excess,
-            slopes: slopes.into(),
-        }
+        std::array::from_fn(|i| {
+            let (factor, by_pressure) = self.p.confinement.factor(self.p.fcm_mpa, &pressures, i);
+            let grown = strains.grown(i, factor);
+            let mut slopes = Vector3::zeros();
+            if grown > kc[i] {
+                slopes = rates.tr_mul(&Vector3::from(by_pressure));
+                slopes *= relaxation * e[i] / (factor * factor);
+                slopes[i] -= relaxation / factor;
+            }
+            Growth {
+                kc: grown,
+                slopes: slopes.into(),
+            }
+        })
     }
 
     /// Tension across the axes of a cracked point.
@@ -402,6 +418,28 @@ impl FixedCrack {
             Tension::new(&self.p, state.onset, band_width)?
         };
         Ok([first, other, other])
+    }
+}
+
+/// What presses the axes in a step.
+#[derive(Debug)]
+struct Pressed<'a> {
+    /// Strains along the axes.
+    e: &'a [f64; 3],
+    /// Histories before the step.
+    kc: &'a [f64; 3],
+    /// The axis that drives the history of each.
+    driven: [usize; 3],
+    /// Share by which histories grow.
+    relaxation: f64,
+}
+
+impl Pressed<'_> {
+    /// History of axis `i`, which grows with its strain over a factor.
+    #[inline]
+    fn grown(&self, i: usize, factor: f64) -> f64 {
+        let excess = -self.e[i] / factor - self.kc[i];
+        self.kc[i] + self.relaxation * excess.max(0.0)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Shear in the axes of the cracks: retention, slip of the faces and their strength.
 
 use fe_core::material::PointContext;
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::{Matrix6, Vector3, Vector6};
 
 use super::shear_transfer::Interlock;
 use super::{FixedCrack, State, wants_tangent};
@@ -10,22 +10,17 @@ use super::{FixedCrack, State, wants_tangent};
 /// the first crack, in whose plane the other axes may still turn, and the shear in its plane.
 const PLANES: [(&[usize], &[usize]); 2] = [(&[0, 2], &[0, 1, 2]), (&[1], &[1, 2])];
 
-/// A modulus or a share of one, and its derivatives with respect to the strains along the axes.
+/// A factor on a modulus and its derivative with respect to the strain of one axis, or to its compressive history.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Factor {
     pub(super) value: f64,
-    pub(super) slopes: [f64; 3],
+    pub(super) slope: f64,
+    /// The axis; 3 more for its history.
+    pub(super) axis: usize,
 }
 
-impl Factor {
-    /// The same times a constant.
-    pub(super) fn times(self, constant: f64) -> Self {
-        Self {
-            value: constant * self.value,
-            slopes: self.slopes.map(|slope| constant * slope),
-        }
-    }
-}
+/// What is added to an axis to mean its history.
+pub(super) const HISTORY: usize = 3;
 
 fn least(a: Factor, b: Factor) -> Factor {
     if b.value < a.value { b } else { a }
@@ -36,6 +31,8 @@ fn least(a: Factor, b: Factor) -> Factor {
 pub(super) struct Retention {
     pub(super) tension: [Factor; 3],
     pub(super) compression: [Factor; 3],
+    /// Derivatives of the kc with respect to the strains, if they are wanted.
+    pub(super) pressed: Option<[[f64; 3]; 3]>,
     /// Derivatives of the kt with respect to the strains.
     pub(super) growing: [f64; 3],
 }
@@ -71,13 +68,10 @@ impl FixedCrack {
             let interlock = self.interlock(state.kt[open], reach);
             let tension = axes.iter().map(|&i| retention.tension[i]);
             let bridged = tension.fold(crushed, least);
-            let slips = interlock.map(|lock| {
-                let mut slopes = [0.0; 3];
-                slopes[open] = lock.factor.1 * opening;
-                Factor {
-                    value: lock.factor.0,
-                    slopes,
-                }
+            let slips = interlock.map(|lock| Factor {
+                value: lock.factor.0,
+                slope: lock.factor.1 * opening,
+                axis: open,
             });
             let slips = slips.map(|slips| least(slips, crushed));
             let share = self.share(bridged, slips, state.shares[kept]);
@@ -90,7 +84,15 @@ impl FixedCrack {
             // Derivatives of the carried share.
             let mut slopes = Vector6::zeros();
             if derive {
-                slopes.fixed_rows_mut::<3>(0).copy_from_slice(&share.slopes);
+                match retention.pressed.filter(|_| share.axis >= HISTORY) {
+                    Some(by_strain) => {
+                        let by_strain = Vector3::from(by_strain[share.axis - HISTORY]);
+                        slopes
+                            .fixed_rows_mut::<3>(0)
+                            .copy_from(&(share.slope * by_strain));
+                    }
+                    None => slopes[share.axis] = share.slope,
+                }
             }
             if let Some(v) = strength {
                 let rate = ctx.relaxation;
@@ -123,12 +125,16 @@ impl FixedCrack {
         let larger = slips.filter(|slips| slips.value > bridged.value);
         let share = larger.unwrap_or(bridged);
         let value = share.value.max(self.p.shear_floor).min(kept);
-        let slopes = if value == share.value {
-            share.slopes
+        let slope = if value == share.value {
+            share.slope
         } else {
-            [0.0; 3]
+            0.0
         };
-        Factor { value, slopes }
+        Factor {
+            value,
+            slope,
+            ..share
+        }
     }
 
     /// Free energy (MPa) of the shear at local strains `e`.

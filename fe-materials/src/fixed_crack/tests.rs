@@ -477,6 +477,7 @@ fn concrete_that_is_pressed_from_the_sides_is_stronger() {
 fn confinement_slows_the_history_down() {
     let mut point = Point::new(build(FixedCrackParameters {
         poisson: 0.0,
+        confinement: Confinement::Vecchio,
         ..parameters()
     }));
     let strain = |x: f64, y: f64| Vector6::new(-x, -y, 0.0, 0.0, 0.0, 0.0);
@@ -499,14 +500,24 @@ fn conforms() {
         tension_softening: TensionSoftening::Linear,
         shear_transfer: ShearTransfer::Damage,
         compression_softening: CompressionSoftening::None,
-        confinement: Confinement::None,
         ..parameters()
+    };
+    let confined = |p| FixedCrackParameters {
+        confinement: Confinement::Vecchio,
+        ..p
     };
     let fixing = |fixing_share| FixedCrackParameters {
         fixing_share,
         ..parameters()
     };
-    for p in [parameters(), plain, fixing(0.3), fixing(1.0)] {
+    for p in [
+        parameters(),
+        plain,
+        fixing(0.3),
+        fixing(1.0),
+        confined(parameters()),
+        confined(plain),
+    ] {
         for amplitude in [1e-3, 1e-2] {
             let check = MaterialCheck {
                 paths: 2500,

@@ -6,7 +6,8 @@ use fe_core::principal::Principal;
 use fe_core::voigt::{SHEAR_PAIRS, strain_transform, stress_along};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, State, wants_secant};
+use super::curves::Compression;
+use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, Pressed, State, wants_secant};
 
 impl FixedCrack {
     /// Stress of the uncracked point of known principal strains, or `false` when a crack opens: the state then holds its axes.
@@ -26,21 +27,18 @@ impl FixedCrack {
         let equivalent: Vector3<f64> = e.map(|ei| (q1 - q2) * ei) + Vector3::repeat(q2 * e.sum());
         let committed_kc = state.kc;
         let mut secant = [self.p.young_mpa; 3];
-        // Derivatives of the stresses with respect to the equivalent strains.
-        let mut slopes = Matrix3::from_diagonal_element(self.p.young_mpa);
+        let mut by_kc = [0.0; 3];
+        let strains = Pressed {
+            e: equivalent.as_ref(),
+            kc: &committed_kc,
+            driven: [0, 1, 2],
+            relaxation: ctx.relaxation,
+        };
+        let grown = self.pressed(&strains, compression);
         for i in 0..3 {
-            let c = equivalent[i];
-            if c >= 0.0 {
-                continue;
-            }
-            let strains = (equivalent.as_ref(), &committed_kc, [0, 1, 2]);
-            let growth = self.pressed(strains, i, (ctx.relaxation, compression));
-            state.kc[i] = growth.kc;
-            let (modulus, by_kc) = compression.secant(growth.kc);
-            secant[i] = modulus;
-            slopes[(i, i)] = modulus;
-            for j in 0..3 {
-                slopes[(i, j)] += by_kc * growth.slopes[j] * c;
+            if equivalent[i] < 0.0 {
+                state.kc[i] = grown[i];
+                (secant[i], by_kc[i]) = compression.secant(grown[i]);
             }
         }
         let stress = Vector3::from_fn(|i, _| secant[i] * equivalent[i]);
@@ -61,6 +59,11 @@ impl FixedCrack {
             let t = strain_transform(&axes);
             let mut d = Matrix6::zeros();
             let q = |i, j| if i == j { q1 } else { q2 };
+            // Derivatives of the stresses with respect to the equivalent strains, or moduli.
+            let mut slopes = Matrix3::from_diagonal(&Vector3::from(secant));
+            if !wants_secant(ctx) {
+                slopes += self.growth_slopes(&strains, compression, &by_kc);
+            }
             for i in 0..3 {
                 for j in 0..3 {
                     d[(i, j)] = if wants_secant(ctx) {
@@ -78,7 +81,8 @@ impl FixedCrack {
                 let g = if gap.abs() > 1e-6 * scale {
                     (stress[i] - stress[j]) / (2.0 * gap)
                 } else {
-                    0.25 * (d[(i, i)] - d[(i, j)] - d[(j, i)] + d[(j, j)])
+                    let [a, b] = [(i, j), (j, i)].map(|(i, j)| slopes[(i, i)] - slopes[(i, j)]);
+                    0.5 * (q1 - q2) * a.midpoint(b)
                 };
                 d[(3 + k, 3 + k)] = if wants_secant(ctx) {
                     g.max(OPERATOR_FLOOR * self.shear_modulus)
@@ -89,6 +93,18 @@ impl FixedCrack {
             out.tangent = t.tr_mul(&d) * t;
         }
         true
+    }
+
+    /// What growing histories add to the derivatives of the stresses with respect to the equivalent strains.
+    #[inline(never)]
+    fn growth_slopes(
+        &self,
+        strains: &Pressed<'_>,
+        compression: &Compression,
+        by_kc: &[f64; 3],
+    ) -> Matrix3<f64> {
+        let growth = self.pressed_slopes(strains, compression);
+        Matrix3::from_fn(|i, j| by_kc[i] * growth[i][j] * strains.e[i])
     }
 
     /// Stress sigma_1 at which a crack opens, if it does.

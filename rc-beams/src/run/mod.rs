@@ -12,6 +12,7 @@ mod resume;
 mod sheets;
 mod watch;
 
+use std::cmp::Reverse;
 use std::time::Instant;
 
 use fe_solver::capacity::{Capacity, Verdict};
@@ -40,15 +41,17 @@ use resume::Beginning;
 use watch::Watch;
 
 /// Runs the specimens, as many at once as there are threads. All models are built and all folders tried before the
-/// first one runs.
+/// first one runs. Of several at once the largest models begin, so that no thread waits long for the last.
 ///
 /// # Errors
 ///
 /// [`RunError`]; the results of the beams before are kept.
 pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, RunError> {
     let interrupt = Interrupt::install()?;
+    let mut queue = Vec::new();
     for specimen in specimens {
-        build(specimen, &settings(options, specimen))?;
+        let beam = build(specimen, &settings(options, specimen))?;
+        queue.push((beam.model.dofs().len(), specimen));
     }
     output::prepare(&options.output).map_err(ResultsError::from)?;
     let folders = specimens.iter().map(|s| options.output.join(&s.name));
@@ -59,8 +62,11 @@ pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, Run
         resume::check(&specimen.name, &input_hash(specimen, options), options)?;
     }
     let workers = queue::workers(specimens.len(), options.threads.map_or(0, usize::from))?;
+    if workers.len() > 1 {
+        queue.sort_by_key(|(dofs, _)| Reverse(*dofs));
+    }
     let board = Board::new();
-    queue::run(&workers, specimens, |specimen, worker| {
+    queue::run(&workers, &queue, |(_, specimen), worker| {
         run(specimen, options, (&interrupt, &board, &worker.threads))
     })
 }
