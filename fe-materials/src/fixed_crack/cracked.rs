@@ -6,8 +6,9 @@ use fe_core::principal::principal;
 use fe_core::voigt::{SHEAR_PAIRS, strain_into, strain_tensor, strain_transform, stress_out_of};
 use nalgebra::{Matrix6, Vector6};
 
+use super::confinement::Pressed;
 use super::shear::{Factor, HISTORY, Retention};
-use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, Pressed, State, wants_secant, wants_tangent};
+use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, State, wants_secant, wants_tangent};
 
 impl FixedCrack {
     /// Stress of a cracked point; updates the histories. `onset` tells that the first crack opens in this very

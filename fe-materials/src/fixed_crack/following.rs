@@ -5,8 +5,9 @@ use fe_core::principal::principal;
 use fe_core::voigt::strain_tensor;
 use nalgebra::Vector6;
 
+use super::confinement::Pressed;
 use super::curves::Tension;
-use super::{Envelopes, FixedCrack, Pressed, State};
+use super::{Envelopes, FixedCrack, State};
 
 /// Share of the tensile strength up to which stresses are equal, as those of an open crack and of its sound plane are.
 const TIE: f64 = 1e-6;

@@ -350,60 +350,6 @@ impl FixedCrack {
         })
     }
 
-    /// The compressive histories at a step's end.
-    #[inline]
-    fn pressed(&self, strains: &Pressed<'_>, compression: &Compression) -> [f64; 3] {
-        if self.p.confinement == Confinement::None {
-            return [0, 1, 2].map(|i| strains.grown(i, 1.0));
-        }
-        self.confined(strains, compression).map(|growth| growth.kc)
-    }
-
-    /// Their derivatives with respect to the strains.
-    #[inline(never)]
-    fn pressed_slopes(&self, strains: &Pressed<'_>, compression: &Compression) -> [[f64; 3]; 3] {
-        self.confined(strains, compression)
-            .map(|growth| growth.slopes)
-    }
-
-    /// Both with confinement; apart, so that points without any do not pay for it. The pressures are those of axes that nothing confines: so they do not depend on the step that leads
-    /// to them.
-    #[inline(never)]
-    fn confined(&self, strains: &Pressed<'_>, compression: &Compression) -> [Growth; 3] {
-        let Pressed {
-            e,
-            kc,
-            driven,
-            relaxation,
-        } = strains;
-        let mut pressures = [0.0; 3];
-        // Derivatives of the pressures with respect to the strains.
-        let mut rates = Matrix3::zeros();
-        for j in (0..3).filter(|&j| e[j] < 0.0) {
-            let by = driven[j];
-            let (modulus, by_kc) = compression.secant(kc[j].max(-e[by]));
-            pressures[j] = -modulus * e[j];
-            rates[(j, j)] -= modulus;
-            if -e[by] > kc[j] {
-                rates[(j, by)] += by_kc * e[j];
-            }
-        }
-        std::array::from_fn(|i| {
-            let (factor, by_pressure) = self.p.confinement.factor(self.p.fcm_mpa, &pressures, i);
-            let grown = strains.grown(i, factor);
-            let mut slopes = Vector3::zeros();
-            if grown > kc[i] {
-                slopes = rates.tr_mul(&Vector3::from(by_pressure));
-                slopes *= relaxation * e[i] / (factor * factor);
-                slopes[i] -= relaxation / factor;
-            }
-            Growth {
-                kc: grown,
-                slopes: slopes.into(),
-            }
-        })
-    }
-
     /// Tension across the axes of a cracked point.
     fn tension(
         &self,
@@ -419,35 +365,6 @@ impl FixedCrack {
         };
         Ok([first, other, other])
     }
-}
-
-/// What presses the axes in a step.
-#[derive(Debug)]
-struct Pressed<'a> {
-    /// Strains along the axes.
-    e: &'a [f64; 3],
-    /// Histories before the step.
-    kc: &'a [f64; 3],
-    /// The axis that drives the history of each.
-    driven: [usize; 3],
-    /// Share by which histories grow.
-    relaxation: f64,
-}
-
-impl Pressed<'_> {
-    /// History of axis `i`, which grows with its strain over a factor.
-    #[inline]
-    fn grown(&self, i: usize, factor: f64) -> f64 {
-        let excess = -self.e[i] / factor - self.kc[i];
-        self.kc[i] + self.relaxation * excess.max(0.0)
-    }
-}
-
-/// A compressive history and its derivatives with respect to the strains along the axes.
-#[derive(Debug, Clone, Copy)]
-struct Growth {
-    kc: f64,
-    slopes: [f64; 3],
 }
 
 /// Envelopes of all points of a crack-band width: tension from the tensile strength, and compression.

@@ -6,8 +6,9 @@ use fe_core::principal::Principal;
 use fe_core::voigt::{SHEAR_PAIRS, strain_transform, stress_along};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
+use super::confinement::Pressed;
 use super::curves::Compression;
-use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, Pressed, State, wants_secant};
+use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, State, wants_secant};
 
 impl FixedCrack {
     /// Stress of the uncracked point of known principal strains, or `false` when a crack opens: the state then holds its axes.

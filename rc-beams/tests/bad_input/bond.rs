@@ -25,6 +25,18 @@ const CASES: &[Case] = &[
             "give the clear distance between the ribs, about half the diameter of the bar",
         ],
     ),
+    // Nothing to anchor.
+    (
+        "bond: ModelCode(\n                condition: Good,\n                confinement: PullOut,\n                \
+         rib_spacing_mm: 16,\n                source: \"assumed: at the bottom of the form; ribs half a diameter apart; \
+         no splitting\",\n            ),",
+        "anchored: true,",
+        "true",
+        &[
+            "bars[0].anchored: anchored, with perfect bond",
+            "leave `anchored` out",
+        ],
+    ),
     (
         "condition: Good",
         "condition: Poor",

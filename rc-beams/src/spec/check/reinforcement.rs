@@ -37,6 +37,13 @@ impl Checks<'_> {
         self.steel(path, &bar.steel);
         self.area(path, bar.diameter_mm, bar.area_mm2);
         self.bond(path, &bar.bond);
+        if bar.anchored && bar.bond == BarBond::Perfect {
+            self.report(
+                format!("{path}.anchored"),
+                "anchored, with perfect bond; allowed: false, as such a bar slips nowhere",
+                "give the bond of the bar, or leave `anchored` out",
+            );
+        }
         let radius = 0.5 * bar.diameter_mm.get();
         let axis = &bar.axis;
         let (from, to) = (axis.x_from_mm.get(), axis.x_to_mm.get());
