@@ -108,7 +108,7 @@ pub struct Cracks {
     #[arg(long, value_enum)]
     pub compression_softening: Option<CompressionSoftening>,
 
-    /// What pressure from the sides does to compression; without it, that of the preset
+    /// What pressure from the sides does to compression; without it, nothing
     #[arg(long, value_enum)]
     pub confinement: Option<Confinement>,
 
@@ -193,7 +193,7 @@ pub enum Preset {
     /// As physical, but with the sheets of the reference: fibres of the soffit along the beam, shear modulus E/2
     Reference,
     /// The reported strength is characteristic (mean: 8 MPa more); reduced integration, no dowel action, no interlock,
-    /// no compression softening, no confinement, linear softening in tension, half the band width
+    /// no compression softening, linear softening in tension, half the band width
     Characteristic,
 }
 

@@ -28,32 +28,30 @@ const TRIAXIAL: f64 = 4.1;
 /// Pressure over fcm that rounding leaves across a free axis.
 const ROUNDING: f64 = 1e-12;
 
-impl Confinement {
-    /// Factor K of axis `i` under the `pressures` (MPa) on all axes, and its derivatives with respect to them.
-    pub(super) fn factor(self, fcm: f64, pressures: &[f64; 3], i: usize) -> (f64, [f64; 3]) {
-        let mut slopes = [0.0; 3];
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        let (most, least) = if pressures[k] > pressures[j] {
-            (k, j)
-        } else {
-            (j, k)
-        };
-        if self == Self::None || pressures[most] <= ROUNDING * fcm {
-            return (1.0, slopes);
-        }
-        let difference = (pressures[most] - pressures[least]) / fcm;
-        let x = difference.min(1.0);
-        let by_x = if difference < 1.0 {
-            (LINEAR - 2.0 * SQUARE * x) / fcm
-        } else {
-            0.0
-        };
-        slopes[most] = by_x;
-        slopes[least] = TRIAXIAL / fcm - by_x;
-        let in_two = LINEAR * x - SQUARE * x * x;
-        let factor = 1.0 + in_two + TRIAXIAL * pressures[least] / fcm;
-        (factor, slopes)
+/// Factor K of axis `i` under the `pressures` (MPa) on all axes, and its derivatives with respect to them.
+fn factor(fcm: f64, pressures: &[f64; 3], i: usize) -> (f64, [f64; 3]) {
+    let mut slopes = [0.0; 3];
+    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+    let (most, least) = if pressures[k] > pressures[j] {
+        (k, j)
+    } else {
+        (j, k)
+    };
+    if pressures[most] <= ROUNDING * fcm {
+        return (1.0, slopes);
     }
+    let difference = (pressures[most] - pressures[least]) / fcm;
+    let x = difference.min(1.0);
+    let by_x = if difference < 1.0 {
+        (LINEAR - 2.0 * SQUARE * x) / fcm
+    } else {
+        0.0
+    };
+    slopes[most] = by_x;
+    slopes[least] = TRIAXIAL / fcm - by_x;
+    let in_two = LINEAR * x - SQUARE * x * x;
+    let factor = 1.0 + in_two + TRIAXIAL * pressures[least] / fcm;
+    (factor, slopes)
 }
 
 impl FixedCrack {
@@ -90,7 +88,8 @@ impl FixedCrack {
         let mut pressures = [0.0; 3];
         // Derivatives of the pressures with respect to the strains.
         let mut rates = Matrix3::zeros();
-        for j in (0..3).filter(|&j| e[j] < 0.0) {
+        let counts = self.p.confinement != Confinement::None;
+        for j in (0..3).filter(|&j| counts && e[j] < 0.0) {
             let by = driven[j];
             let (modulus, by_kc) = compression.secant(kc[j].max(-e[by]));
             pressures[j] = -modulus * e[j];
@@ -100,7 +99,7 @@ impl FixedCrack {
             }
         }
         std::array::from_fn(|i| {
-            let (factor, by_pressure) = self.p.confinement.factor(self.p.fcm_mpa, &pressures, i);
+            let (factor, by_pressure) = factor(self.p.fcm_mpa, &pressures, i);
             let grown = strains.grown(i, factor);
             let mut slopes = Vector3::zeros();
             if grown > kc[i] {

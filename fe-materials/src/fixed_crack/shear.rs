@@ -84,14 +84,13 @@ impl FixedCrack {
             // Derivatives of the carried share.
             let mut slopes = Vector6::zeros();
             if derive {
-                match retention.pressed.filter(|_| share.axis >= HISTORY) {
-                    Some(by_strain) => {
-                        let by_strain = Vector3::from(by_strain[share.axis - HISTORY]);
-                        slopes
-                            .fixed_rows_mut::<3>(0)
-                            .copy_from(&(share.slope * by_strain));
-                    }
-                    None => slopes[share.axis] = share.slope,
+                if share.axis < HISTORY {
+                    slopes[share.axis] = share.slope;
+                } else if let Some(by_strain) = retention.pressed {
+                    let by_strain = Vector3::from(by_strain[share.axis - HISTORY]);
+                    slopes
+                        .fixed_rows_mut::<3>(0)
+                        .copy_from(&(share.slope * by_strain));
                 }
             }
             if let Some(v) = strength {

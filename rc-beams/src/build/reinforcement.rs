@@ -13,7 +13,6 @@ use fe_materials::Biso;
 
 use super::slipping::{self, Slip};
 use super::{BuildError, ModelSettings, laws};
-
 use crate::spec::{BarArea, BarBond, BarDiameter, Specimen, Steel};
 
 /// What a bar is for.
@@ -52,13 +51,9 @@ pub(super) fn lay(
     followers: &Followers,
     elements: &mut Vec<Box<dyn Element>>,
 ) -> Result<Vec<BarRecord>, BuildError> {
-    let mut records: Vec<BarRecord> = Vec::new();
+    let mut records = Vec::new();
     for planned in bars(specimen, settings)? {
-        let Planned {
-            bar,
-            slip,
-            mut record,
-        } = planned;
+        let (bar, slip, mut record) = (planned.bar, planned.slip, planned.record);
         let first = elements.len();
         let mut bonds = Vec::new();
         if let Some(slip) = slip {

@@ -92,7 +92,6 @@ impl ModelSettings {
                 tension_softening: TensionSoftening::Linear,
                 shear_transfer: ShearTransfer::Damage,
                 compression_softening: CompressionSoftening::None,
-                confinement: Confinement::None,
                 fixing_share: 1.0,
                 shear_floor: 1e-3,
                 band_factor: 0.5,
