@@ -66,8 +66,8 @@ const fn case(
     }
 }
 
-/// The default, with its numerical error.
-pub const DEFAULT: Case = case("default", "as it is", "--band", &ALL);
+/// The default, with its numerical error and what it would carry with perfect bond.
+pub const DEFAULT: Case = case("default", "as it is", "--band --counterfactual", &ALL);
 
 /// Twice the elements along and up: what the error bars are judged by.
 pub const TWICE: Case = Case {

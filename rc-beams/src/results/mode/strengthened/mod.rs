@@ -10,7 +10,7 @@
 //! - *debonded*: share of the side of the span at the end of the drop;
 //! - *utilisation*: largest of any sheet up to the peak;
 //! - *ratio*: peak of the same beam with perfect bond over that of the beam, where it is known. At least
-//!   1.15, bond governs; at most 1.08, concrete does.
+//!   1.15, bond governs; at most 1.08, concrete does, whatever the sheets lose once it has failed.
 //!
 //! *No yield* includes bars that yield where diagonal cracks govern, see [`super`]. A span that carries no sheet fails
 //! by the rules for bare beams. Else the first row that fits counts; rows 5 to 8 need a drop to 0.8 of the peak.
@@ -19,17 +19,17 @@
 //! |---|---|---|
 //! | 1 | load falls by less than 5 % | the same as for bare beams: flexure or none |
 //! | 2 | utilisation at least 1 | sheet rupture |
-//! | 3 | loss at least 40 %, debonded at least 35 %, no yield, softened web below 10 %, ratio not at most 1.08 | debonding |
+//! | 3 | loss at least 40 % and debonded at least 35 %, or loss above 25 % and ratio at least 1.15; no yield, softened web below 10 %, ratio not at most 1.08 | debonding |
 //! | 4 | loss below 40 % or debonded below 35 %; the rule for flexure of bare beams | flexure |
-//! | 5 | loss at most 25 %, no yield, softened web at least 10 %, ratio not at least 1.15 | shear (web crushing) |
-//! | 6 | loss at most 25 %, no yield, the rule for crushing of bare beams, ratio not at least 1.15 | concrete crushing |
-//! | 7 | loss at most 25 %, no yield, ratio not at least 1.15 | concrete splitting |
+//! | 5 | *bonded*: loss at most 25 % and ratio not at least 1.15, or ratio at most 1.08; no yield; softened web at least 10 % | shear (web crushing) |
+//! | 6 | bonded, no yield, the rule for crushing of bare beams | concrete crushing |
+//! | 7 | bonded, no yield | concrete splitting |
 //! | 8 | otherwise | mixed |
 //! | 9 | otherwise, without a drop to 0.8 of the peak | undecided |
 //!
-//! Row 7 is what remains when steel is elastic and the sheets keep their force: the concrete. The thresholds of
-//! loss, debonded share and ratio were set on ten histories of strengthened beams, not on an independent
-//! set; refining a mesh can move a beam by one row.
+//! Row 7 is what remains when steel is elastic and bond does not govern: the concrete. The thresholds of loss,
+//! debonded share and ratio were set on ten histories of strengthened beams, not on an independent set; refining
+//! a mesh can move a beam by one row.
 
 use std::fmt;
 
@@ -123,20 +123,22 @@ fn mode(measures: &Measures, bond: &Bond<'_>, capacity: &Capacity) -> FailureMod
     let bond_governs = bond.ratio.is_some_and(|r| r >= BOND_GOVERNS);
     let concrete_governs = bond.ratio.is_some_and(|r| r <= CONCRETE_GOVERNS);
     let bends = measures.bends();
-    let stays = loss <= BONDED_LOSS && !bends && !bond_governs;
+    let keeps = loss <= BONDED_LOSS;
+    let bond_fails = (debonds || !keeps && bond_governs) && !concrete_governs;
+    let bonded = (concrete_governs || keeps && !bond_governs) && !bends;
     if bond.sheets.utilisation >= 1.0 {
         FailureMode::SheetRupture
-    } else if debonds && !bends && !softened && !concrete_governs {
+    } else if bond_fails && !bends && !softened {
         FailureMode::Debonding
     } else if !debonds && measures.mode() == FailureMode::Flexure {
         FailureMode::Flexure
     } else if !bond.sheets.complete {
         FailureMode::Undecided
-    } else if stays && softened {
+    } else if bonded && softened {
         FailureMode::WebCrushing
-    } else if stays && minor && measures.crushing_growth >= CRUSHING_GROWTH {
+    } else if bonded && minor && measures.crushing_growth >= CRUSHING_GROWTH {
         FailureMode::ConcreteCrushing
-    } else if stays {
+    } else if bonded {
         FailureMode::ConcreteSplitting
     } else {
         FailureMode::Mixed

@@ -62,12 +62,15 @@ fn loss_of_force_and_debonded_share_decide_between_bond_and_concrete() {
 }
 
 #[test]
-fn the_peak_with_perfect_bond_confirms_or_contradicts() {
+fn the_peak_with_perfect_bond_decides_whether_bond_or_concrete_governs() {
     use FailureMode::{ConcreteSplitting, Debonding, Mixed};
     for (loss, ratio, expected) in [
         (0.5, 1.27, Debonding),
         (0.5, 1.081, Debonding),
-        (0.5, 1.079, Mixed),
+        (0.5, 1.079, ConcreteSplitting),
+        (0.3, 1.079, ConcreteSplitting),
+        (0.3, 1.149, Mixed),
+        (0.3, 1.151, Debonding),
         (0.1, 1.01, ConcreteSplitting),
         (0.1, 1.149, ConcreteSplitting),
         (0.1, 1.151, Mixed),
