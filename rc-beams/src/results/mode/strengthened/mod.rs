@@ -180,8 +180,9 @@ impl fmt::Display for Bond<'_> {
             "; sheets used to {:.0} %",
             100.0 * self.sheets.utilisation
         )?;
-        if let Some(ratio) = self.ratio {
-            write!(f, "; perfect bond would carry {ratio:.2} times the peak")?;
+        match self.ratio {
+            Some(ratio) => write!(f, "; perfect bond would carry {ratio:.2} times the peak")?,
+            None => f.write_str("; peak with perfect bond not known (--counterfactual)")?,
         }
         match self.span.stirrups {
             0 => f.write_str("; no stirrups in the span"),

@@ -134,6 +134,10 @@ fn forces_are_not_read_where_the_load_is_lost() {
         evidence.contains("100.0 kN at the peak, lost with the load; 85 %"),
         "{evidence}"
     );
+    assert!(
+        evidence.contains("peak with perfect bond not known (--counterfactual)"),
+        "{evidence}"
+    );
     assert_eq!(of(0.9, 0.3).mode, FailureMode::Mixed);
 }
 
