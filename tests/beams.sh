@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Runs the beams with their numerical errors and those with sheets with perfect bond, and writes their report into docs/beams.md; some fifteen minutes on two idle cores.
+# Runs the beams with their numerical errors, those with sheets with perfect bond too, and writes their report into docs/beams.md;
+# some twenty minutes on two cores.
 # Results go to the folder given, without one to where accuracy.sh has the same runs; of a folder that exists only the report is written.
 set -euo pipefail
 cd "$(dirname "$0")/.."
