@@ -11,6 +11,8 @@ use pulp::{Arch, Simd, WithSimd};
 
 /// Nodes padded to a multiple of every vector length.
 pub(crate) const PAD: usize = 24;
+/// Lanes of the widest vector.
+const MAX_LANES: usize = 8;
 /// Most points of a rule.
 pub(crate) const MAX_POINTS: usize = 27;
 
@@ -137,7 +139,7 @@ impl WithSimd for Force<'_> {
     }
 }
 
-/// Adds the sum over the points of w B^T D B to a 60 x 60 row-major matrix: to the upper triangle if
+/// Adds the sum over the points of w B^T D B to a 60 x 60 row-major matrix: to the upper triangle at least if
 /// `symmetric`, else to all of it.
 pub(crate) fn stiffness(
     points: &[Point],
@@ -145,12 +147,22 @@ pub(crate) fn stiffness(
     symmetric: bool,
     out: &mut [f64],
 ) {
-    Arch::new().dispatch(Stiffness {
+    dispatch_narrow(Stiffness {
         points,
         tangents,
         symmetric,
         out,
     });
+}
+
+/// Runs an operation on vectors of four where the machine has them. The 20 nodes are five of these: eight at a time
+/// compute 24, and a symmetric matrix by squares of 8 x 8 on the diagonal.
+fn dispatch_narrow<W: WithSimd>(operation: W) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(simd) = pulp::x86::V3::try_new() {
+        return Simd::vectorize(simd, operation);
+    }
+    Arch::new().dispatch(operation)
 }
 
 struct Stiffness<'a> {
@@ -167,44 +179,42 @@ impl WithSimd for Stiffness<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        // Two rows of blocks take 18 sums, which only the 32 registers of the widest unit hold.
-        if S::F64_LANES == 8 {
-            self.in_rows::<S, 2>(simd);
+        if self.points.len() <= 8 {
+            self.within::<S, 8>(simd);
         } else {
-            self.in_rows::<S, 1>(simd);
+            self.within::<S, MAX_POINTS>(simd);
         }
     }
 }
+
+impl Stiffness<'_> {
+    /// For at most `MOST` points.
+    #[allow(clippy::inline_always, clippy::large_stack_arrays)]
+    #[inline(always)]
+    fn within<S: Simd, const MOST: usize>(self, simd: S) {
+        let zero = simd.splat_f64s(0.0);
+        let mut db: Aligned<[Product<S>; MOST]> = Aligned([[[zero; 3]; 6]; MOST]);
+        let db = &mut db.0[..self.points.len()];
+        for v in 0..20_usize.div_ceil(S::F64_LANES) {
+            products(simd, self.points, self.tangents, v, db);
+            let columns = v * S::F64_LANES..20.min((v + 1) * S::F64_LANES);
+            for a in 0..if self.symmetric { columns.end } else { 20 } {
+                let block = accumulate(simd, self.points, db, a);
+                add::<S>(&block, a, columns.clone(), self.out);
+            }
+        }
+    }
+}
+
+/// Starts at a line of the cache, so that no vector lies in two.
+#[repr(align(64))]
+struct Aligned<T>(T);
 
 /// w D B of one point for the nodes of one vector, by Voigt row and displacement direction.
 type Product<S> = [[<S as Simd>::f64s; 3]; 6];
 
 /// Sums of 3 x 3 blocks for the nodes of one vector: direction of the row, of the column.
 type Blocks<S> = [[<S as Simd>::f64s; 3]; 3];
-
-impl Stiffness<'_> {
-    /// Columns of blocks by the vector, rows of blocks `ROWS_AT_ONCE` at a time.
-    #[allow(clippy::inline_always, clippy::large_stack_arrays)]
-    #[inline(always)]
-    fn in_rows<S: Simd, const ROWS_AT_ONCE: usize>(self, simd: S) {
-        let zero = simd.splat_f64s(0.0);
-        let mut db: [Product<S>; MAX_POINTS] = [[[zero; 3]; 6]; MAX_POINTS];
-        let db = &mut db[..self.points.len()];
-        for v in 0..20_usize.div_ceil(S::F64_LANES) {
-            let columns = v * S::F64_LANES..20.min((v + 1) * S::F64_LANES);
-            products(simd, self.points, self.tangents, v, db);
-            let rows = if self.symmetric { columns.end } else { 20 };
-            for a in (0..rows).step_by(ROWS_AT_ONCE) {
-                let blocks = accumulate::<S, ROWS_AT_ONCE>(simd, self.points, db, a);
-                for (a, block) in (a..rows).zip(&blocks) {
-                    let from = if self.symmetric { a } else { 0 };
-                    let columns = columns.start.max(from)..columns.end;
-                    add::<S>(block, (a, v), columns, self.out);
-                }
-            }
-        }
-    }
-}
 
 /// w D B of the points for the nodes of vector `v`.
 #[allow(clippy::inline_always)]
@@ -237,24 +247,17 @@ fn products<S: Simd>(
     }
 }
 
-/// B^T (w D B) summed over the points: blocks of the rows of `N` nodes from `a` on.
+/// B^T (w D B) summed over the points: blocks of the row of node `a`.
 #[allow(clippy::inline_always)]
 #[inline(always)]
-fn accumulate<S: Simd, const N: usize>(
-    simd: S,
-    points: &[Point],
-    db: &[Product<S>],
-    a: usize,
-) -> [Blocks<S>; N] {
-    let mut sums = [[[simd.splat_f64s(0.0); 3]; 3]; N];
+fn accumulate<S: Simd>(simd: S, points: &[Point], db: &[Product<S>], a: usize) -> Blocks<S> {
+    let mut sums = [[simd.splat_f64s(0.0); 3]; 3];
     for ((g, _), t) in points.iter().zip(db) {
-        for l in 0..3 {
+        for d in 0..3 {
+            let s = simd.splat_f64s(g[d][a]);
             for k in 0..3 {
-                for d in 0..3 {
-                    for n in 0..N {
-                        let s = simd.splat_f64s(g[d][a + n]);
-                        sums[n][k][l] = simd.mul_add_f64s(s, t[ROWS[k][d]][l], sums[n][k][l]);
-                    }
+                for l in 0..3 {
+                    sums[k][l] = simd.mul_add_f64s(s, t[ROWS[k][d]][l], sums[k][l]);
                 }
             }
         }
@@ -262,24 +265,20 @@ fn accumulate<S: Simd, const N: usize>(
     sums
 }
 
-/// Adds the blocks of row node `a` and of those `columns` that vector `v` holds.
+/// Adds the blocks of row node `a` and the nodes `columns` of one vector.
 #[allow(clippy::inline_always)]
 #[inline(always)]
-fn add<S: Simd>(
-    block: &Blocks<S>,
-    (a, v): (usize, usize),
-    columns: std::ops::Range<usize>,
-    out: &mut [f64],
-) {
-    let mut row = [[0.0_f64; PAD]; 3];
+fn add<S: Simd>(block: &Blocks<S>, a: usize, columns: std::ops::Range<usize>, out: &mut [f64]) {
+    let mut row = [[0.0_f64; MAX_LANES]; 3];
     for (k, sums) in block.iter().enumerate() {
         for (l, sum) in sums.iter().enumerate() {
-            S::as_mut_simd_f64s(&mut row[l]).0[v] = *sum;
+            S::as_mut_simd_f64s(&mut row[l]).0[0] = *sum;
         }
-        let out = &mut out[(3 * a + k) * 60..(3 * a + k + 1) * 60];
-        for b in columns.clone() {
+        let start = (3 * a + k) * 60;
+        let out = &mut out[start + 3 * columns.start..start + 3 * columns.end];
+        for (b, out) in out.chunks_exact_mut(3).enumerate() {
             for l in 0..3 {
-                out[3 * b + l] += row[l][b];
+                out[l] += row[l][b];
             }
         }
     }
