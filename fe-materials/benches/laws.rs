@@ -1,5 +1,8 @@
 //! One update with consistent tangent of every law, in a state where the law has most to do; and of the
-//! concrete laws in an elastic state.
+//! concrete laws in an elastic state. The law of the beams also for the points of a hexahedron at once, by the point.
+
+use std::hint::black_box;
+use std::time::Instant;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use fe_core::kinematics::{Axial, Kinematics, PlaneStress, Solid};
@@ -10,6 +13,7 @@ use fe_materials::concrete::{
 };
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 use fe_materials::{Biso, Elastic, Lamina, LaminaParameters, VonMises};
+use nalgebra::Vector6;
 
 /// Updates from the state at `first` to `second`.
 fn bench<K: Kinematics>(
@@ -28,6 +32,35 @@ fn bench<K: Kinematics>(
     let (strain, mut trial) = (K::vector(second), virgin);
     c.bench_function(name, |b| {
         b.iter(|| law.update(&strain, &state, &mut trial, &ctx).unwrap());
+    });
+}
+
+/// The same with all `POINTS` of a hexahedron at once; time of one of them.
+fn bench_many(
+    c: &mut Criterion,
+    name: &str,
+    law: &dyn Material<Solid>,
+    [first, second]: &[[f64; 6]; 2],
+) {
+    const POINTS: u32 = 27;
+    let ctx = PointContext::new(30.0);
+    let mut state = vec![0.0; law.state_len() * POINTS as usize];
+    let mut trial = state.clone();
+    let strains = |e: &[f64; 6]| [Vector6::from(*e); POINTS as usize];
+    law.update_many(&strains(first), (&trial, &mut state), &ctx, &mut |_, _| ())
+        .unwrap();
+    let strains = strains(second);
+    c.bench_function(name, |b| {
+        b.iter_custom(|times| {
+            let start = Instant::now();
+            for _ in 0..times {
+                law.update_many(&strains, (&state, &mut trial), &ctx, &mut |_, answer| {
+                    black_box(answer);
+                })
+                .unwrap();
+            }
+            start.elapsed() / POINTS
+        });
     });
 }
 
@@ -66,6 +99,7 @@ fn laws(c: &mut Criterion) {
     solid(c, "objective, cracked", &law, &cracked);
     let p = ReferenceParameters::new(concrete, TensionStiffening::Stirrups);
     let law = Reference::new(&p).unwrap();
+    solid(c, "reference, elastic", &law, &intact);
     solid(c, "reference, crushing", &law, &crushed);
     solid(c, "reference, cracked", &law, &cracked);
     let p = FixedCrackParameters::from_strength(
@@ -78,6 +112,13 @@ fn laws(c: &mut Criterion) {
     solid(c, "fixed crack, elastic", &law, &intact);
     solid(c, "fixed crack, crushing", &law, &crushed);
     solid(c, "fixed crack, cracked", &law, &cracked);
+    for (name, path) in [
+        ("elastic", &intact),
+        ("crushing", &crushed),
+        ("cracked", &cracked),
+    ] {
+        bench_many(c, &format!("fixed crack, {name}, of 27"), &law, path);
+    }
     let bar = Biso::hot_rolled(200e3, 460.0, 2e3).unwrap();
     bench::<Axial>(c, "bilinear bar", &bar, &[3e-3], &[4e-3]);
     let sheet = Lamina::new(&LaminaParameters {

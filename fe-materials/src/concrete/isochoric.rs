@@ -96,6 +96,13 @@ impl Isochoric {
         &self.elastic
     }
 
+    pub(crate) const fn elastic_response(&self, stress: Vector6<f64>) -> Response<Solid> {
+        Response {
+            stress,
+            tangent: self.elastic.stiffness,
+        }
+    }
+
     /// Stress, state and operator at a total strain, hardening along `curve`.
     pub(crate) fn respond(
         &self,
@@ -274,8 +281,13 @@ impl Material<Solid> for Isochoric {
         ctx: &PointContext,
     ) -> Result<Response<Solid>, MaterialError> {
         finite(LAW, strain)?;
-        let committed = PlasticState::read(committed);
-        let response = self.respond(strain, &committed, &self.curve, ctx.operator)?;
+        let plastic = PlasticState::read(committed);
+        let stress = self.elastic.stress(&(strain - plastic.strain));
+        if self.surely_elastic(&stress, plastic.kappa, &self.curve) {
+            trial.copy_from_slice(committed);
+            return Ok(self.elastic_response(stress));
+        }
+        let response = self.respond(strain, &plastic, &self.curve, ctx.operator)?;
         response.state.write(trial);
         Ok(Response {
             stress: response.stress,

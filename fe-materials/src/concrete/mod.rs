@@ -4,6 +4,7 @@
 //! yz, xz.
 
 mod associated;
+mod elastic_bound;
 mod hardening;
 mod isochoric;
 mod objective;

@@ -10,6 +10,7 @@ use fe_core::material::{
 use fe_core::voigt::{principal, stress_tensor};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
+use super::elastic_bound::norm;
 use super::plastic_state::PlasticState;
 use super::{CompressionCurve, ConcreteScalars, Isochoric};
 use crate::limits::{finite, positive};
@@ -135,6 +136,17 @@ impl Objective {
         Softening::new(self.young, self.strength, self.fracture_energy, band_width)
     }
 
+    /// Whether a stress neither yields nor damages by bounds that need no principal stresses: the first and the
+    /// third are at most the norm, and kt grows with both.
+    fn stays_intact(&self, stress: &Vector6<f64>, state: &State, curve: &CompressionCurve) -> bool {
+        let largest = norm(stress);
+        state.damage == 0.0
+            && self.drive(&Vector3::new(largest, 0.0, -largest)).value <= state.kt
+            && self
+                .plastic
+                .surely_elastic(stress, state.plastic.kappa, curve)
+    }
+
     fn drive(&self, effective: &Vector3<f64>) -> Drive {
         if effective[0] <= 0.0 {
             return Drive {
@@ -192,6 +204,14 @@ impl Material<Solid> for Objective {
         let softening = self.softening(ctx.band_width)?;
         let curve = self.compression(ctx.band_width);
         let mut state = State::read(committed);
+        let stress = self
+            .plastic
+            .elastic()
+            .stress(&(strain - state.plastic.strain));
+        if self.stays_intact(&stress, &state, &curve) {
+            trial.copy_from_slice(committed);
+            return Ok(self.plastic.elastic_response(stress));
+        }
         let effective = self
             .plastic
             .respond(strain, &state.plastic, &curve, ctx.operator)?;

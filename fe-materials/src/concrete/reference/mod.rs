@@ -14,6 +14,7 @@ use nalgebra::Vector6;
 
 pub use parameters::{ReferenceParameters, ShearRetention, TensionStiffening};
 
+use super::elastic_bound::absolute_sum;
 use super::{CompressionCurve, Isochoric};
 use crate::limits::finite;
 use state::{STATE_VARS, State};
@@ -106,6 +107,15 @@ impl Reference {
         state: &mut State,
         ctx: &PointContext,
     ) -> Result<Option<Response<Solid>>, MaterialError> {
+        let elastic = self.uncracked.elastic();
+        let stress = elastic.stress(&(strain - state.plastic.strain));
+        // F <= fcm/fctm times the sum: below fctm the surface is not reached.
+        let (kappa, curve) = (state.plastic.kappa, self.curve());
+        if absolute_sum(&stress) < self.strength()
+            && self.uncracked.surely_elastic(&stress, kappa, curve)
+        {
+            return Ok(Some(self.uncracked.elastic_response(stress)));
+        }
         let answer = self
             .uncracked
             .respond(strain, &state.plastic, self.curve(), ctx.operator)?;
