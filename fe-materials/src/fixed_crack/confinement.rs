@@ -71,6 +71,15 @@ impl FixedCrack {
         strains: &Pressed<'_>,
         compression: &Compression,
     ) -> [[f64; 3]; 3] {
+        if self.p.confinement == Confinement::None {
+            let mut slopes = [[0.0; 3]; 3];
+            for i in 0..3 {
+                if strains.grown(i, 1.0) > strains.kc[i] {
+                    slopes[i][i] = -strains.relaxation;
+                }
+            }
+            return slopes;
+        }
         self.confined(strains, compression)
             .map(|growth| growth.slopes)
     }
@@ -88,8 +97,7 @@ impl FixedCrack {
         let mut pressures = [0.0; 3];
         // Derivatives of the pressures with respect to the strains.
         let mut rates = Matrix3::zeros();
-        let counts = self.p.confinement != Confinement::None;
-        for j in (0..3).filter(|&j| counts && e[j] < 0.0) {
+        for j in (0..3).filter(|&j| e[j] < 0.0) {
             let by = driven[j];
             let (modulus, by_kc) = compression.secant(kc[j].max(-e[by]));
             pressures[j] = -modulus * e[j];

@@ -283,14 +283,16 @@ impl State {
 }
 
 impl FixedCrack {
-    /// Response of a point, with its principal strains if they are known.
+    /// Response of a point, with its principal strains if they are known; an operator that is not asked for stays as it
+    /// is.
     fn respond(
         &self,
         strain: &Vector6<f64>,
         (committed, trial): (&[f64], &mut [f64]),
         ctx: &PointContext,
         (envelopes, known): (&Envelopes, Option<&Principal>),
-    ) -> Result<Response<Solid>, MaterialError> {
+        out: &mut Response<Solid>,
+    ) -> Result<(), MaterialError> {
         if let Some(component) = strain.iter().position(|e| !e.is_finite()) {
             return Err(MaterialError::NotFinite {
                 law: NAME,
@@ -298,21 +300,17 @@ impl FixedCrack {
             });
         }
         let mut state = State::read(committed);
-        let mut response = Response {
-            stress: Vector6::zeros(),
-            tangent: Matrix6::zeros(),
-        };
         let onset = !state.cracked;
         let intact = onset && {
             let found = known.copied();
             let found = found.unwrap_or_else(|| principal(&strain_tensor(strain)));
-            self.uncracked(found, &mut state, (ctx, envelopes), &mut response)
+            self.uncracked(found, &mut state, (ctx, envelopes), out)
         };
         if !intact {
-            self.cracked(strain, &mut state, (ctx, envelopes), onset, &mut response)?;
+            self.cracked(strain, &mut state, (ctx, envelopes), onset, out)?;
         }
         state.write(trial);
-        Ok(response)
+        Ok(())
     }
 
     /// A law with Rankine onset and, where `onset` is given, Ottosen onset.
@@ -391,7 +389,10 @@ impl Material<Solid> for FixedCrack {
         ctx: &PointContext,
     ) -> Result<Response<Solid>, MaterialError> {
         let envelopes = self.envelopes(ctx.band_width)?;
-        self.respond(strain, (committed, trial), ctx, (&envelopes, None))
+        let mut response = blank();
+        let states = (committed, trial);
+        self.respond(strain, states, ctx, (&envelopes, None), &mut response)?;
+        Ok(response)
     }
 
     /// Principal strains of the uncracked points are found together.
@@ -405,6 +406,7 @@ impl Material<Solid> for FixedCrack {
         let envelopes = self.envelopes(ctx.band_width).map_err(|error| (0, error))?;
         let n = self.state_len();
         let state = |p: usize| p * n..(p + 1) * n;
+        let mut response = blank();
         for start in (0..strains.len()).step_by(TOGETHER) {
             let end = strains.len().min(start + TOGETHER);
             let uncracked = |p: &usize| !State::is_cracked(&committed[state(*p)]);
@@ -420,10 +422,9 @@ impl Material<Solid> for FixedCrack {
             for p in start..end {
                 let axes = if uncracked(&p) { next.next() } else { None };
                 let states = (&committed[state(p)], &mut trial[state(p)]);
-                match &self.respond(&strains[p], states, ctx, (&envelopes, axes)) {
-                    Ok(response) => take(p, response),
-                    Err(error) => return Err((p, error.clone())),
-                }
+                self.respond(&strains[p], states, ctx, (&envelopes, axes), &mut response)
+                    .map_err(|error| (p, error))?;
+                take(p, &response);
             }
         }
         Ok(())
@@ -481,6 +482,14 @@ impl Material<Solid> for FixedCrack {
             crushing,
             ..PointReport::default()
         }
+    }
+}
+
+/// A response to fill.
+fn blank() -> Response<Solid> {
+    Response {
+        stress: Vector6::zeros(),
+        tangent: Matrix6::zeros(),
     }
 }
 
