@@ -2,24 +2,17 @@
 
 use nalgebra::Vector6;
 
-use super::{CompressionCurve, Isochoric};
+use super::CompressionCurve;
 
-impl Isochoric {
-    /// Whether a stress (MPa) is elastic by a bound; where it is not, it may be elastic all the same.
-    ///
-    /// Tension is elastic. F, convex and of degree one, is for the compressive part of the stress at most what the
-    /// principal stresses need one by one,
-    ///
-    /// $$ F(\mathrm{neg}(\sigma)) \le \sum_i F(\mathrm{neg}(\sigma_i)) \le \sum_i |\sigma_i|. $$
-    pub(super) fn surely_elastic(
-        &self,
-        stress: &Vector6<f64>,
-        kappa: f64,
-        curve: &CompressionCurve,
-    ) -> bool {
-        is_tensile(stress)
-            || kappa > 0.0 && absolute_sum(stress) <= curve.at(curve.eta(kappa)).stress
-    }
+/// Whether a stress (MPa) is elastic for [`Isochoric`](super::Isochoric) plasticity by a bound; where it is not, it may be
+/// elastic all the same.
+///
+/// Tension is elastic. F, convex and of degree one, is for the compressive part of the stress at most what the
+/// principal stresses need one by one,
+///
+/// $$ F(\mathrm{neg}(\sigma)) \le \sum_i F(\mathrm{neg}(\sigma_i)) \le \sum_i |\sigma_i|. $$
+pub(super) fn surely_elastic(stress: &Vector6<f64>, kappa: f64, curve: &CompressionCurve) -> bool {
+    is_tensile(stress) || kappa > 0.0 && absolute_sum(stress) <= curve.at(curve.eta(kappa)).stress
 }
 
 /// Upper bound of |sigma_1| + |sigma_2| + |sigma_3| (MPa); the sum itself where the three have one sign.
@@ -49,7 +42,7 @@ fn is_tensile(stress: &Vector6<f64>) -> bool {
 mod tests {
     //! Protects the bounds: a stress that they call elastic is elastic, and they do find what is.
     use super::*;
-    use crate::concrete::ConcreteScalars;
+    use crate::concrete::{ConcreteScalars, Isochoric};
     use fe_core::material::Operator;
     use nalgebra::Matrix6;
     use proptest::prelude::*;
@@ -69,7 +62,7 @@ mod tests {
             let stress = law.elastic().stress(&strain);
             let found = law.respond(&strain, &committed, law.curve(), Operator::Tangent).unwrap();
             let elastic = found.state == committed;
-            if law.surely_elastic(&stress, kappa, law.curve()) {
+            if surely_elastic(&stress, kappa, law.curve()) {
                 prop_assert!(elastic);
                 prop_assert_eq!(found.stress, stress);
                 prop_assert_eq!(found.tangent, law.elastic().stiffness);
@@ -88,9 +81,9 @@ mod tests {
     fn they_find_tension_and_unloading() {
         let law = law();
         let pulled = Vector6::new(2.0, 1.0, 1.0, 0.1, -0.1, 0.2);
-        assert!(law.surely_elastic(&pulled, 0.0, law.curve()));
+        assert!(surely_elastic(&pulled, 0.0, law.curve()));
         let pressed = Vector6::new(-5.0, 0.1, 0.1, 0.5, 0.0, 0.0);
-        assert!(!law.surely_elastic(&pressed, 0.0, law.curve()));
-        assert!(law.surely_elastic(&pressed, 1e-4, law.curve()));
+        assert!(!surely_elastic(&pressed, 0.0, law.curve()));
+        assert!(surely_elastic(&pressed, 1e-4, law.curve()));
     }
 }

@@ -7,6 +7,7 @@ use fe_core::material::{
 use fe_core::voigt::{principal, strain_voigt, stress_tensor};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
+use super::elastic_bound::surely_elastic;
 use super::plastic_state::{PLASTIC_VARS, PlasticState, RETURN_TOLERANCE, YIELD_TOLERANCE};
 use super::root::bracketed_root;
 use super::{Calibration, CompressionCurve, ConcreteScalars, Ottosen};
@@ -283,7 +284,7 @@ impl Material<Solid> for Isochoric {
         finite(LAW, strain)?;
         let plastic = PlasticState::read(committed);
         let stress = self.elastic.stress(&(strain - plastic.strain));
-        if self.surely_elastic(&stress, plastic.kappa, &self.curve) {
+        if surely_elastic(&stress, plastic.kappa, &self.curve) {
             trial.copy_from_slice(committed);
             return Ok(self.elastic_response(stress));
         }

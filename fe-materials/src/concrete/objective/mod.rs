@@ -10,7 +10,7 @@ use fe_core::material::{
 use fe_core::voigt::{principal, stress_tensor};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use super::elastic_bound::norm;
+use super::elastic_bound::{norm, surely_elastic};
 use super::plastic_state::PlasticState;
 use super::{CompressionCurve, ConcreteScalars, Isochoric};
 use crate::limits::{finite, positive};
@@ -142,9 +142,7 @@ impl Objective {
         let largest = norm(stress);
         state.damage == 0.0
             && self.drive(&Vector3::new(largest, 0.0, -largest)).value <= state.kt
-            && self
-                .plastic
-                .surely_elastic(stress, state.plastic.kappa, curve)
+            && surely_elastic(stress, state.plastic.kappa, curve)
     }
 
     fn drive(&self, effective: &Vector3<f64>) -> Drive {

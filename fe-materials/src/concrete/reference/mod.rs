@@ -14,7 +14,7 @@ use nalgebra::Vector6;
 
 pub use parameters::{ReferenceParameters, ShearRetention, TensionStiffening};
 
-use super::elastic_bound::absolute_sum;
+use super::elastic_bound::{absolute_sum, surely_elastic};
 use super::{CompressionCurve, Isochoric};
 use crate::limits::finite;
 use state::{STATE_VARS, State};
@@ -111,9 +111,7 @@ impl Reference {
         let stress = elastic.stress(&(strain - state.plastic.strain));
         // F <= fcm/fctm times the sum: below fctm the surface is not reached.
         let (kappa, curve) = (state.plastic.kappa, self.curve());
-        if absolute_sum(&stress) < self.strength()
-            && self.uncracked.surely_elastic(&stress, kappa, curve)
-        {
+        if absolute_sum(&stress) < self.strength() && surely_elastic(&stress, kappa, curve) {
             return Ok(Some(self.uncracked.elastic_response(stress)));
         }
         let answer = self
