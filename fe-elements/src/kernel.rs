@@ -208,7 +208,7 @@ impl Stiffness<'_> {
 
 /// Starts at a line of the cache, so that no vector lies in two.
 #[repr(align(64))]
-struct Aligned<T>(T);
+pub(crate) struct Aligned<T>(pub(crate) T);
 
 /// w D B of one point for the nodes of one vector, by Voigt row and displacement direction.
 type Product<S> = [[<S as Simd>::f64s; 3]; 6];

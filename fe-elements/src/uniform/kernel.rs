@@ -4,6 +4,8 @@
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::kernel::Aligned;
+
 /// Nodes, which fill the widest vector.
 pub(super) const NODES: usize = 8;
 /// DOFs.
@@ -12,8 +14,25 @@ const DOFS: usize = 3 * NODES;
 /// One value for each node, by direction.
 type ByDirection = [[f64; NODES]; 3];
 
-/// Gradients (1/mm) du/dx and dv/dx, du/dy and dv/dy, dw/dz of the nodes, and the volume (mm3), of one point.
-pub(super) type Point = (ByDirection, f64);
+/// One point; it starts at a line of the cache, so that no vector lies in two.
+#[repr(align(64))]
+#[derive(Debug)]
+pub(super) struct Point {
+    /// du/dx and dv/dx, du/dy and dv/dy, dw/dz (1/mm) of the nodes.
+    pub(super) gradients: ByDirection,
+    /// Volume (mm3).
+    pub(super) volume: f64,
+}
+
+impl Point {
+    /// Gradients of the nodes of vector `i`.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, i: usize) -> [S::f64s; 3] {
+        let [x, y, z] = &self.gradients;
+        [lanes::<S>(x)[i], lanes::<S>(y)[i], lanes::<S>(z)[i]]
+    }
+}
 
 /// Voigt rows of the strains that do not vanish: xx, yy, zz, xy.
 const ROWS: [usize; 4] = [0, 1, 2, 3];
@@ -38,15 +57,15 @@ impl WithSimd for Strains<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let [u, v, w] = self.u;
         let (u, v, w) = (lanes::<S>(u), lanes::<S>(v), lanes::<S>(w));
-        for ((g, _), strain) in self.points.iter().zip(self.out) {
-            let (x, y, z) = (lanes::<S>(&g[0]), lanes::<S>(&g[1]), lanes::<S>(&g[2]));
+        for (point, strain) in self.points.iter().zip(self.out) {
             let mut sums = [simd.splat_f64s(0.0); 4];
-            for i in 0..x.len() {
-                sums[0] = simd.mul_add_f64s(x[i], u[i], sums[0]);
-                sums[1] = simd.mul_add_f64s(y[i], v[i], sums[1]);
-                sums[2] = simd.mul_add_f64s(z[i], w[i], sums[2]);
-                sums[3] = simd.mul_add_f64s(y[i], u[i], sums[3]);
-                sums[3] = simd.mul_add_f64s(x[i], v[i], sums[3]);
+            for i in 0..NODES / S::F64_LANES {
+                let [x, y, z] = point.lanes::<S>(i);
+                sums[0] = simd.mul_add_f64s(x, u[i], sums[0]);
+                sums[1] = simd.mul_add_f64s(y, v[i], sums[1]);
+                sums[2] = simd.mul_add_f64s(z, w[i], sums[2]);
+                sums[3] = simd.mul_add_f64s(y, u[i], sums[3]);
+                sums[3] = simd.mul_add_f64s(x, v[i], sums[3]);
             }
             *strain = Vector6::zeros();
             for (row, sum) in ROWS.into_iter().zip(sums) {
@@ -83,16 +102,21 @@ impl WithSimd for Force<'_> {
         let fu = S::as_mut_simd_f64s(fu).0;
         let fv = S::as_mut_simd_f64s(fv).0;
         let fw = S::as_mut_simd_f64s(fw).0;
-        for ((g, w), stress) in self.points.iter().zip(self.stresses) {
-            let (x, y, z) = (lanes::<S>(&g[0]), lanes::<S>(&g[1]), lanes::<S>(&g[2]));
-            let [xx, yy, zz, xy] = ROWS.map(|row| simd.splat_f64s(w * stress[row]));
-            for i in 0..x.len() {
-                fu[i] = simd.mul_add_f64s(x[i], xx, fu[i]);
-                fu[i] = simd.mul_add_f64s(y[i], xy, fu[i]);
-                fv[i] = simd.mul_add_f64s(y[i], yy, fv[i]);
-                fv[i] = simd.mul_add_f64s(x[i], xy, fv[i]);
-                fw[i] = simd.mul_add_f64s(z[i], zz, fw[i]);
+        for i in 0..NODES / S::F64_LANES {
+            let mut sums = [simd.splat_f64s(0.0); 3];
+            for (point, stress) in self.points.iter().zip(self.stresses) {
+                let [x, y, z] = point.lanes::<S>(i);
+                let xx = simd.splat_f64s(point.volume * stress[ROWS[0]]);
+                let yy = simd.splat_f64s(point.volume * stress[ROWS[1]]);
+                let zz = simd.splat_f64s(point.volume * stress[ROWS[2]]);
+                let xy = simd.splat_f64s(point.volume * stress[ROWS[3]]);
+                sums[0] = simd.mul_add_f64s(x, xx, sums[0]);
+                sums[0] = simd.mul_add_f64s(y, xy, sums[0]);
+                sums[1] = simd.mul_add_f64s(y, yy, sums[1]);
+                sums[1] = simd.mul_add_f64s(x, xy, sums[1]);
+                sums[2] = simd.mul_add_f64s(z, zz, sums[2]);
             }
+            [fu[i], fv[i], fw[i]] = sums;
         }
     }
 }
@@ -123,13 +147,15 @@ impl WithSimd for Stiffness<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let zero = simd.splat_f64s(0.0);
         // w D B of every point for the nodes of one vector, by row and direction of displacement.
-        let mut db = [[[zero; 3]; 4]; MAX_POINTS];
+        let mut db = Aligned([[[zero; 3]; 4]; MAX_POINTS]);
+        let db = &mut db.0[..self.points.len()];
         for i in 0..NODES / S::F64_LANES {
-            for ((g, w), (d, t)) in self.points.iter().zip(self.tangents.iter().zip(&mut db)) {
-                let w = simd.splat_f64s(*w);
-                let x = simd.mul_f64s(w, lanes::<S>(&g[0])[i]);
-                let y = simd.mul_f64s(w, lanes::<S>(&g[1])[i]);
-                let z = simd.mul_f64s(w, lanes::<S>(&g[2])[i]);
+            for (point, (d, t)) in self.points.iter().zip(self.tangents.iter().zip(&mut *db)) {
+                let w = simd.splat_f64s(point.volume);
+                let [x, y, z] = point.lanes::<S>(i);
+                let x = simd.mul_f64s(w, x);
+                let y = simd.mul_f64s(w, y);
+                let z = simd.mul_f64s(w, z);
                 for (row, t) in ROWS.into_iter().zip(t) {
                     let shear = simd.splat_f64s(d[(row, 3)]);
                     t[0] = simd.mul_f64s(simd.splat_f64s(d[(row, 0)]), x);
@@ -141,8 +167,10 @@ impl WithSimd for Stiffness<'_> {
             }
             for a in 0..NODES {
                 let mut sums = [[zero; 3]; 3];
-                for ((g, _), t) in self.points.iter().zip(&db) {
-                    let [x, y, z] = [0, 1, 2].map(|k| simd.splat_f64s(g[k][a]));
+                for (point, t) in self.points.iter().zip(&*db) {
+                    let x = simd.splat_f64s(point.gradients[0][a]);
+                    let y = simd.splat_f64s(point.gradients[1][a]);
+                    let z = simd.splat_f64s(point.gradients[2][a]);
                     for l in 0..3 {
                         sums[0][l] = simd.mul_add_f64s(x, t[0][l], sums[0][l]);
                         sums[0][l] = simd.mul_add_f64s(y, t[3][l], sums[0][l]);
@@ -213,7 +241,10 @@ mod tests {
             expected += b.transpose() * d * b * weight;
             resultant += b.transpose() * s * weight;
             elongations.push(b * DVector::from_column_slice(&u));
-            points.push((g, weight));
+            points.push(Point {
+                gradients: g,
+                volume: weight,
+            });
             tangents.push(d);
             stresses.push(s);
         }

@@ -91,10 +91,13 @@ impl UniformHex20 {
                     }
                 }
             }
-            points.push((g, w * determinant));
+            points.push(Point {
+                gradients: g,
+                volume: w * determinant,
+            });
             positions.push(position.into());
         }
-        let volume: f64 = points.iter().map(|p| p.1).sum();
+        let volume: f64 = points.iter().map(|p| p.volume).sum();
         let band = band.of(coords, volume, points.len());
         let slice = Slice {
             nodes,
@@ -127,7 +130,7 @@ impl Interpolation for Slice {
     }
 
     fn volumes(&self) -> impl Iterator<Item = f64> {
-        self.points.iter().map(|p| p.1)
+        self.points.iter().map(|p| p.volume)
     }
 
     fn strains(&self, u: &[f64], out: &mut [Vector6<f64>]) {
