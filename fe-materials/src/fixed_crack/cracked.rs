@@ -2,7 +2,7 @@
 
 use fe_core::kinematics::Solid;
 use fe_core::material::{MaterialError, Operator, PointContext, Response};
-use fe_core::principal::principal;
+use fe_core::principal::{Principal, principal};
 use fe_core::voigt::{SHEAR_PAIRS, strain_into, strain_tensor, strain_transform, stress_out_of};
 use nalgebra::{Matrix6, Vector6};
 
@@ -11,11 +11,11 @@ use super::shear::{Factor, HISTORY, Retention};
 use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, State, wants_secant, wants_tangent};
 
 impl FixedCrack {
-    /// Stress of a cracked point; updates the histories. `onset` tells that the first crack opens in this very
+    /// Stress of a cracked point, with its principal strains if they are known; updates the histories. `onset` tells that the first crack opens in this very
     /// update: its axes then still follow the strain.
     pub(super) fn cracked(
         &self,
-        strain: &Vector6<f64>,
+        (strain, known): (&Vector6<f64>, Option<&Principal>),
         state: &mut State,
         (ctx, envelopes): (&PointContext, &Envelopes),
         onset: bool,
@@ -25,7 +25,7 @@ impl FixedCrack {
         let compression = &envelopes.compression;
         let turning = !state.second;
         if !onset && !state.fixed {
-            self.follow(strain, state, &tension, (ctx, envelopes));
+            self.follow((strain, known), state, &tension, (ctx, envelopes));
         }
         let following = !onset && !state.fixed;
         if turning && !following {

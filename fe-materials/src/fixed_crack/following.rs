@@ -1,7 +1,7 @@
 //! Axes of a crack that follow the strain while it still bridges some of its strength.
 
 use fe_core::material::PointContext;
-use fe_core::principal::principal;
+use fe_core::principal::{Principal, principal};
 use fe_core::voigt::strain_tensor;
 use nalgebra::Vector6;
 
@@ -18,7 +18,7 @@ impl FixedCrack {
     /// that the modulus (sigma_i - sigma_j)/(2 (e_i - e_j)) that turns them is negative, and a step could create energy.
     pub(super) fn follow(
         &self,
-        strain: &Vector6<f64>,
+        (strain, known): (&Vector6<f64>, Option<&Principal>),
         state: &mut State,
         tension: &[Tension; 3],
         (ctx, envelopes): (&PointContext, &Envelopes),
@@ -28,7 +28,9 @@ impl FixedCrack {
             state.fixed = true;
             return;
         }
-        let (e, axes) = principal(&strain_tensor(strain));
+        let (e, axes) = known
+            .copied()
+            .unwrap_or_else(|| principal(&strain_tensor(strain)));
         let grown = |k: f64, e: f64| k + ctx.relaxation * (e - k).max(0.0);
         let kt = std::array::from_fn(|i| grown(state.kt[i], e[i]));
         let kc = [state.kc.into_iter().fold(0.0, f64::max); 3];

@@ -251,15 +251,15 @@ struct State {
 }
 
 impl State {
-    /// Whether the point of a state has cracked.
-    fn is_cracked(s: &[f64]) -> bool {
-        s[0] > 0.5
+    /// Whether the axes of a state's point are fixed.
+    fn is_fixed(s: &[f64]) -> bool {
+        s[0] > 1.5
     }
 
     fn read(s: &[f64]) -> Self {
         Self {
-            cracked: Self::is_cracked(s),
-            fixed: s[0] > 1.5,
+            cracked: s[0] > 0.5,
+            fixed: Self::is_fixed(s),
             second: s[0] > 2.5,
             axes: Matrix3::from_column_slice(&s[1..10]),
             kt: [s[10], s[11], s[12]],
@@ -307,7 +307,7 @@ impl FixedCrack {
             self.uncracked(found, &mut state, (ctx, envelopes), out)
         };
         if !intact {
-            self.cracked(strain, &mut state, (ctx, envelopes), onset, out)?;
+            self.cracked((strain, known), &mut state, (ctx, envelopes), onset, out)?;
         }
         state.write(trial);
         Ok(())
@@ -395,7 +395,7 @@ impl Material<Solid> for FixedCrack {
         Ok(response)
     }
 
-    /// Principal strains of the uncracked points are found together.
+    /// Principal strains of the points whose axes are not fixed are found together.
     fn update_many(
         &self,
         strains: &[Vector6<f64>],
@@ -409,18 +409,18 @@ impl Material<Solid> for FixedCrack {
         let mut response = blank();
         for start in (0..strains.len()).step_by(TOGETHER) {
             let end = strains.len().min(start + TOGETHER);
-            let uncracked = |p: &usize| !State::is_cracked(&committed[state(*p)]);
+            let turns = |p: &usize| !State::is_fixed(&committed[state(*p)]);
             let mut tensors = [Vector6::zeros(); TOGETHER];
             let mut found = [(Vector3::zeros(), Matrix3::zeros()); TOGETHER];
             let mut count = 0;
-            for p in (start..end).filter(uncracked) {
+            for p in (start..end).filter(turns) {
                 tensors[count] = strain_components(&strains[p]);
                 count += 1;
             }
             principal_of_many(&tensors[..count], &mut found);
             let mut next = found.iter();
             for p in start..end {
-                let axes = if uncracked(&p) { next.next() } else { None };
+                let axes = if turns(&p) { next.next() } else { None };
                 let states = (&committed[state(p)], &mut trial[state(p)]);
                 self.respond(&strains[p], states, ctx, (&envelopes, axes), &mut response)
                     .map_err(|error| (p, error))?;
