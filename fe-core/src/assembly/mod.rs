@@ -81,10 +81,7 @@ impl Assembler {
             .map(|dofs| dofs.iter().map(|&d| equation[d as usize]).collect())
             .collect();
         let pattern = Sparsity::from_groups(free.len(), equations.iter().map(Vec::as_slice));
-        let scatter = equations
-            .par_iter()
-            .map(|eq| Scatter::new(&pattern, eq))
-            .collect();
+        let scatter = scatter::scatter(&pattern, &equations);
         let ends = element_dofs.iter().scan(0, |end, dofs| {
             *end += dofs.len();
             Some(*end)

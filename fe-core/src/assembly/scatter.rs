@@ -1,164 +1,237 @@
 //! Where the entries of an element's matrix go in the arrays of values.
 
+use std::collections::HashSet;
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
 use crate::sparsity::Sparsity;
 
-/// Equation number of a constrained DOF, and target of an entry that is dropped.
+/// Equation number of a constrained DOF, and place of an entry that is dropped.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Set in a target whose entry (i, j) lies above the diagonal of the system; patterns of more than 2^31
-/// entries (16 GiB of values) are beyond a direct solver.
+/// Set in a place whose entry (i, j) lies above the diagonal of the system: it is in the column of i, others in that of j.
 const ABOVE: u32 = 1 << 31;
 
-/// Targets of the upper triangle of an element's matrix. Neighbouring entries mostly go to neighbouring targets, three
-/// to a node: these are kept by the first.
+/// Where the upper triangle of an element's matrix goes: where the columns of its equations begin, and the places there,
+/// which elements in like surroundings share.
 #[derive(Debug)]
 pub(super) struct Scatter {
+    begins: Vec<u32>,
+    places: Arc<Places>,
+}
+
+/// Places of entries in the columns of the system. Neighbouring entries mostly go to neighbouring places, three to a node:
+/// these are kept by the first.
+#[derive(Debug, PartialEq, Eq)]
+struct Places {
     /// Three entries of a row.
     in_rows: Vec<Entry>,
     /// Three entries of a column.
     in_columns: Vec<Entry>,
     /// The others.
     single: Vec<Entry>,
-    /// Number of rows.
-    n: usize,
 }
 
-/// An entry of the element's matrix and its target.
-#[derive(Debug, Clone, Copy)]
+/// An entry of the element's matrix and its place in its column of the system.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Entry {
-    target: u32,
+    place: u32,
     row: u16,
     column: u16,
+}
+
+impl Hash for Places {
+    /// One number of all entries, for a fraction of the time of a hash of each.
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let all = [&self.in_rows, &self.in_columns, &self.single];
+        let mix = |mix: u64, entry: &Entry| mix.rotate_left(7) ^ entry.packed();
+        state.write_u64(all.into_iter().flatten().fold(0, mix));
+    }
 }
 
 /// Entries that follow one another.
 const RUN: usize = 3;
 
+/// Elements whose places are looked up before those found alike are dropped.
+const AT_ONCE: usize = 1024;
+
+/// Looks up every entry of the elements with these equations once.
+pub(super) fn scatter(pattern: &Sparsity, equations: &[Vec<u32>]) -> Vec<Scatter> {
+    let mut known: HashSet<Arc<Places>> = HashSet::new();
+    let mut all = Vec::with_capacity(equations.len());
+    for some in equations.chunks(AT_ONCE) {
+        let found: Vec<Scatter> = some
+            .par_iter()
+            .map(|equations| Scatter::new(pattern, equations))
+            .collect();
+        for mut scatter in found {
+            if let Some(places) = known.get(&scatter.places) {
+                scatter.places = Arc::clone(places);
+            } else {
+                known.insert(Arc::clone(&scatter.places));
+            }
+            all.push(scatter);
+        }
+    }
+    all
+}
+
 impl Scatter {
-    /// Looks up every entry once.
-    pub(super) fn new(pattern: &Sparsity, equations: &[u32]) -> Self {
+    fn new(pattern: &Sparsity, equations: &[u32]) -> Self {
+        let begin = |equation: u32| match equation {
+            NONE => NONE,
+            column => pattern.column(column as usize).start as u32,
+        };
+        let begins: Vec<u32> = equations.iter().map(|&e| begin(e)).collect();
+        let places = Places::new(pattern, equations, &begins);
+        Self {
+            begins,
+            places: Arc::new(places),
+        }
+    }
+
+    /// Where an entry, and those that follow it, go.
+    fn position(&self, entry: Entry) -> usize {
+        let column = if entry.is_above() {
+            entry.row
+        } else {
+            entry.column
+        };
+        self.begins[usize::from(column)] as usize + (entry.place & !ABOVE) as usize
+    }
+
+    /// Adds a symmetric matrix, of which the upper triangle is read, to one triangle of the system.
+    pub(super) fn add_symmetric(&self, matrix: &[f64], values: &mut [f64]) {
+        let n = self.begins.len();
+        for entry in &self.places.in_rows {
+            let (at, to) = (entry.at(n), self.position(*entry));
+            let (from, to) = (&matrix[at..at + RUN], &mut values[to..to + RUN]);
+            for (value, add) in to.iter_mut().zip(from) {
+                *value += add;
+            }
+        }
+        for entry in &self.places.in_columns {
+            let (at, to) = (entry.at(n), self.position(*entry));
+            let to = &mut values[to..to + RUN];
+            for (k, value) in to.iter_mut().enumerate() {
+                *value += matrix[at + k * n];
+            }
+        }
+        for entry in &self.places.single {
+            values[self.position(*entry)] += matrix[entry.at(n)];
+        }
+    }
+
+    /// Adds a full matrix to both triangles; the diagonal goes to both.
+    pub(super) fn add_unsymmetric(&self, matrix: &[f64], lower: &mut [f64], upper: &mut [f64]) {
+        let n = self.begins.len();
+        let mut add = |entry: &Entry, count: usize, (by_row, by_column): (usize, usize)| {
+            let to = self.position(*entry);
+            let (lower, upper) = (&mut lower[to..to + count], &mut upper[to..to + count]);
+            let (row, column) = (usize::from(entry.row), usize::from(entry.column));
+            for (k, (lower, upper)) in lower.iter_mut().zip(upper).enumerate() {
+                let (i, j) = (row + k * by_row, column + k * by_column);
+                let (ij, ji) = (matrix[i * n + j], matrix[j * n + i]);
+                let (below, above) = if entry.is_above() { (ji, ij) } else { (ij, ji) };
+                *lower += below;
+                *upper += above;
+            }
+        };
+        for entry in &self.places.in_rows {
+            add(entry, RUN, (0, 1));
+        }
+        for entry in &self.places.in_columns {
+            add(entry, RUN, (1, 0));
+        }
+        for entry in &self.places.single {
+            add(entry, 1, (0, 0));
+        }
+    }
+}
+
+impl Places {
+    fn new(pattern: &Sparsity, equations: &[u32], begins: &[u32]) -> Self {
         let n = equations.len();
-        let mut targets = vec![NONE; n * n];
+        let mut places = vec![NONE; n * n];
         for i in 0..n {
             for j in i..n {
-                let (row, col) = (equations[i], equations[j]);
-                let (low, high) = (row.min(col), row.max(col));
+                let (row, column) = (equations[i], equations[j]);
+                let (low, high) = (row.min(column), row.max(column));
                 let position = if high == NONE {
                     None
                 } else {
                     pattern.position(high as usize, low as usize)
                 };
-                let above = if row < col { ABOVE } else { 0 };
-                targets[i * n + j] = position.map_or(NONE, |p| p as u32 | above);
+                let (begin, above) = if row < column {
+                    (begins[i], ABOVE)
+                } else {
+                    (begins[j], 0)
+                };
+                places[i * n + j] = position.map_or(NONE, |p| (p as u32 - begin) | above);
             }
         }
-        let mut scatter = Self {
+        let mut found = Self {
             in_rows: Vec::new(),
             in_columns: Vec::new(),
             single: Vec::new(),
-            n,
         };
         for i in 0..n {
             for j in i..n {
-                scatter.take(&mut targets, i, j);
+                found.take(&mut places, (i, j), n);
             }
         }
-        scatter
+        found
     }
 
-    /// Takes entry (i, j) and those that follow it out of the `targets`.
-    fn take(&mut self, targets: &mut [u32], i: usize, j: usize) {
-        let n = self.n;
-        let first = targets[i * n + j];
+    /// Takes entry (i, j) and those that follow it out of the `places`.
+    fn take(&mut self, places: &mut [u32], (i, j): (usize, usize), n: usize) {
+        let first = places[i * n + j];
         if first == NONE {
             return;
         }
         let along = |step: usize| (0..RUN).map(move |k| i * n + j + k * step);
         let follows = |step: usize| {
             let mut wanted = first..;
-            along(step).all(|at| targets.get(at).copied() == wanted.next())
+            along(step).all(|at| places.get(at).copied() == wanted.next())
         };
-        let (runs, step) = if j + RUN <= n && follows(1) {
+        let in_column_of_row = first & ABOVE != 0;
+        let (runs, step) = if in_column_of_row && j + RUN <= n && follows(1) {
             (&mut self.in_rows, 1)
-        } else if i + RUN <= n && follows(n) {
+        } else if !in_column_of_row && i + RUN <= n && follows(n) {
             (&mut self.in_columns, n)
         } else {
-            targets[i * n + j] = NONE;
+            places[i * n + j] = NONE;
             self.single.push(entry(first, i, j));
             return;
         };
         runs.push(entry(first, i, j));
         for at in along(step) {
-            targets[at] = NONE;
-        }
-    }
-
-    /// Adds a symmetric matrix, of which the upper triangle is read, to one triangle of the system.
-    pub(super) fn add_symmetric(&self, matrix: &[f64], values: &mut [f64]) {
-        let n = self.n;
-        for entry in &self.in_rows {
-            let (at, to) = (entry.at(n), entry.position());
-            let (from, to) = (&matrix[at..at + RUN], &mut values[to..to + RUN]);
-            for (value, add) in to.iter_mut().zip(from) {
-                *value += add;
-            }
-        }
-        for entry in &self.in_columns {
-            let (at, to) = (entry.at(n), entry.position());
-            let to = &mut values[to..to + RUN];
-            for (k, value) in to.iter_mut().enumerate() {
-                *value += matrix[at + k * n];
-            }
-        }
-        for entry in &self.single {
-            values[entry.position()] += matrix[entry.at(n)];
-        }
-    }
-
-    /// Adds a full matrix to both triangles; the diagonal goes to both.
-    pub(super) fn add_unsymmetric(&self, matrix: &[f64], lower: &mut [f64], upper: &mut [f64]) {
-        let n = self.n;
-        let mut add = |entry: &Entry, k: usize, (row, column): (usize, usize)| {
-            let (ij, ji) = (matrix[row * n + column], matrix[column * n + row]);
-            let (below, above) = if entry.target & ABOVE == 0 {
-                (ij, ji)
-            } else {
-                (ji, ij)
-            };
-            lower[entry.position() + k] += below;
-            upper[entry.position() + k] += above;
-        };
-        let place = |entry: &Entry| (usize::from(entry.row), usize::from(entry.column));
-        for entry in &self.in_rows {
-            let (i, j) = place(entry);
-            (0..RUN).for_each(|k| add(entry, k, (i, j + k)));
-        }
-        for entry in &self.in_columns {
-            let (i, j) = place(entry);
-            (0..RUN).for_each(|k| add(entry, k, (i + k, j)));
-        }
-        for entry in &self.single {
-            add(entry, 0, place(entry));
+            places[at] = NONE;
         }
     }
 }
 
-fn entry(target: u32, row: usize, column: usize) -> Entry {
+fn entry(place: u32, row: usize, column: usize) -> Entry {
     Entry {
-        target,
+        place,
         row: row as u16,
         column: column as u16,
     }
 }
 
 impl Entry {
+    fn packed(self) -> u64 {
+        u64::from(self.place) << 32 | u64::from(self.row) << 16 | u64::from(self.column)
+    }
+
+    const fn is_above(self) -> bool {
+        self.place & ABOVE != 0
+    }
+
     /// Index in a row-major matrix of `n` columns.
     fn at(self, n: usize) -> usize {
         usize::from(self.row) * n + usize::from(self.column)
-    }
-
-    /// Index of the target.
-    const fn position(self) -> usize {
-        (self.target & !ABOVE) as usize
     }
 }
