@@ -1,6 +1,7 @@
 //! Elements on nodes that follow others or hang between them.
 
 use std::borrow::Cow;
+use std::cell::Cell;
 
 use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext};
@@ -82,10 +83,21 @@ impl Led {
 }
 
 impl Fold {
+    /// T u.
+    fn displacements(&self, u: &[f64]) -> impl Iterator<Item = f64> {
+        let row = |row: &[(usize, f64)]| row.iter().map(|&(c, t)| t * u[c]).sum();
+        self.rows().map(row)
+    }
+
     /// Columns and values of the rows of T.
     fn rows(&self) -> impl Iterator<Item = &[(usize, f64)]> {
         self.begins.windows(2).map(|w| &self.entries[w[0]..w[1]])
     }
+}
+
+thread_local! {
+    /// Displacements, force and stiffness of the element within, for the next evaluation.
+    static BUFFERS: Cell<[Vec<f64>; 3]> = const { Cell::new([const { Vec::new() }; 3]) };
 }
 
 /// Leaders of `nodes`, each once, and column and entry of every row of T, node-major.
@@ -116,8 +128,7 @@ impl View for Fold {
     }
 
     fn own<'a>(&self, u: &'a [f64]) -> Cow<'a, [f64]> {
-        let row = |row: &[(usize, f64)]| row.iter().map(|&(c, t)| t * u[c]).sum();
-        self.rows().map(row).collect()
+        self.displacements(u).collect()
     }
 
     fn evaluate(
@@ -129,13 +140,19 @@ impl View for Fold {
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
         let (n, led) = (self.begins.len() - 1, u.len());
-        let mut force = vec![0.0; n];
-        let mut stiffness = vec![0.0; if out.stiffness.is_empty() { 0 } else { n * n }];
-        let own = ElementSystem {
+        let [mut own, mut force, mut stiffness] = BUFFERS.take();
+        own.clear();
+        own.extend(self.displacements(u));
+        let entries = if out.stiffness.is_empty() { 0 } else { n * n };
+        for (zeros, len) in [(&mut force, n), (&mut stiffness, entries)] {
+            zeros.clear();
+            zeros.resize(len, 0.0);
+        }
+        let system = ElementSystem {
             force: &mut force,
             stiffness: &mut stiffness,
         };
-        element.evaluate(&self.own(u), committed, trial, ctx, own)?;
+        element.evaluate(&own, committed, trial, ctx, system)?;
         for (f, row) in force.iter().zip(self.rows()) {
             for &(c, t) in row {
                 out.force[c] += t * f;
@@ -156,6 +173,7 @@ impl View for Fold {
                 }
             }
         }
+        BUFFERS.set([own, force, stiffness]);
         Ok(())
     }
 }
