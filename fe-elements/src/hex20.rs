@@ -11,6 +11,7 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::kernel::{self, PAD, Point};
 use crate::solid::{Interpolation, SolidElement};
+use crate::vectors::{add_by_node, by_direction};
 
 /// Integration rule of a hexahedron.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,10 +107,13 @@ impl Hex20 {
                     g[k][a] = d[k];
                 }
             }
-            points.push((g, w * determinant));
+            points.push(Point {
+                gradients: g,
+                volume: w * determinant,
+            });
             positions.push(position.into());
         }
-        let volume: f64 = points.iter().map(|p| p.1).sum();
+        let volume: f64 = points.iter().map(|p| p.volume).sum();
         let band = band.of(coords, volume, points.len());
         Self::of(Brick { nodes, points }, positions, law, band)
     }
@@ -140,15 +144,15 @@ impl Interpolation for Brick {
     }
 
     fn volumes(&self) -> impl Iterator<Item = f64> {
-        self.points.iter().map(|p| p.1)
+        self.points.iter().map(|p| p.volume)
     }
 
     fn strains(&self, u: &[f64], out: &mut [Vector6<f64>]) {
-        kernel::strains(&self.points, &kernel::by_direction(u), out);
+        kernel::strains(&self.points, &by_direction(u), out);
     }
 
     fn add_force(&self, stresses: &[Vector6<f64>], out: &mut [f64]) {
-        kernel::add_by_node(&kernel::force(&self.points, stresses), out);
+        add_by_node(&kernel::force(&self.points, stresses), out);
     }
 
     fn add_stiffness(&self, tangents: &[Matrix6<f64>], symmetric: bool, out: &mut [f64]) {

@@ -9,6 +9,8 @@
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::vectors::{self, Aligned, ByDirection, lanes};
+
 /// Nodes padded to a multiple of every vector length.
 pub(crate) const PAD: usize = 24;
 /// Lanes of the widest vector.
@@ -16,44 +18,21 @@ const MAX_LANES: usize = 8;
 /// Most points of a rule.
 pub(crate) const MAX_POINTS: usize = 27;
 
-/// Gradients dN/dx, dN/dy, dN/dz (1/mm) of the 20 nodes at one point, by direction.
-pub(crate) type Gradients = [[f64; PAD]; 3];
-
-/// Gradients and weight times Jacobian determinant (mm3) of one point.
-pub(crate) type Point = (Gradients, f64);
+/// Gradients dN/dx, dN/dy, dN/dz (1/mm) of the 20 nodes, and the volume, of one point.
+pub(crate) type Point = vectors::Point<PAD>;
 
 /// Voigt rows that the derivatives along x, y, z of displacement direction `k` enter:
 /// direction x gives xx, xy, xz; y gives xy, yy, yz; z gives xz, yz, zz.
 const ROWS: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 
-/// Node-major values by direction, padded to `N` nodes.
-pub(crate) fn by_direction<const N: usize>(u: &[f64]) -> [[f64; N]; 3] {
-    let mut out = [[0.0; N]; 3];
-    for (a, node) in u.chunks_exact(3).enumerate() {
-        for k in 0..3 {
-            out[k][a] = node[k];
-        }
-    }
-    out
-}
-
-/// Adds values by direction to node-major ones.
-pub(crate) fn add_by_node<const N: usize>(values: &[[f64; N]; 3], out: &mut [f64]) {
-    for (a, node) in out.chunks_exact_mut(3).enumerate() {
-        for k in 0..3 {
-            node[k] += values[k][a];
-        }
-    }
-}
-
 /// Strains B u (Voigt, engineering shear) at the points.
-pub(crate) fn strains(points: &[Point], u: &Gradients, out: &mut [Vector6<f64>]) {
+pub(crate) fn strains(points: &[Point], u: &ByDirection<PAD>, out: &mut [Vector6<f64>]) {
     Arch::new().dispatch(Strains { points, u, out });
 }
 
 struct Strains<'a> {
     points: &'a [Point],
-    u: &'a Gradients,
+    u: &'a ByDirection<PAD>,
     out: &'a mut [Vector6<f64>],
 }
 
@@ -64,23 +43,21 @@ impl WithSimd for Strains<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let [ux, uy, uz] = self.u;
-        let u = [
-            S::as_simd_f64s(ux).0,
-            S::as_simd_f64s(uy).0,
-            S::as_simd_f64s(uz).0,
-        ];
-        for ((g, _), strain) in self.points.iter().zip(self.out) {
+        for (point, strain) in self.points.iter().zip(self.out) {
             // Displacement gradient du_k/dx_d.
-            let mut h = [[0.0; 3]; 3];
-            for d in 0..3 {
-                let g = S::as_simd_f64s(&g[d]).0;
+            let mut sums = [[simd.splat_f64s(0.0); 3]; 3];
+            for v in 0..PAD / S::F64_LANES {
+                let (g, u) = (point.lanes::<S>(v), lanes::<S, PAD>(self.u, v));
                 for k in 0..3 {
-                    let mut sum = simd.splat_f64s(0.0);
-                    for (x, y) in u[k].iter().zip(g) {
-                        sum = simd.mul_add_f64s(*x, *y, sum);
+                    for d in 0..3 {
+                        sums[k][d] = simd.mul_add_f64s(u[k], g[d], sums[k][d]);
                     }
-                    h[k][d] = simd.reduce_sum_f64s(sum);
+                }
+            }
+            let mut h = [[0.0; 3]; 3];
+            for k in 0..3 {
+                for d in 0..3 {
+                    h[k][d] = simd.reduce_sum_f64s(sums[k][d]);
                 }
             }
             *strain = Vector6::new(
@@ -96,7 +73,7 @@ impl WithSimd for Strains<'_> {
 }
 
 /// Sum over the points of w B^T sigma, by direction.
-pub(crate) fn force(points: &[Point], stresses: &[Vector6<f64>]) -> Gradients {
+pub(crate) fn force(points: &[Point], stresses: &[Vector6<f64>]) -> ByDirection<PAD> {
     let mut out = [[0.0; PAD]; 3];
     Arch::new().dispatch(Force {
         points,
@@ -109,7 +86,7 @@ pub(crate) fn force(points: &[Point], stresses: &[Vector6<f64>]) -> Gradients {
 struct Force<'a> {
     points: &'a [Point],
     stresses: &'a [Vector6<f64>],
-    out: &'a mut Gradients,
+    out: &'a mut ByDirection<PAD>,
 }
 
 impl WithSimd for Force<'_> {
@@ -118,21 +95,17 @@ impl WithSimd for Force<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        for ((g, w), stress) in self.points.iter().zip(self.stresses) {
-            let (gx, gy, gz) = (
-                S::as_simd_f64s(&g[0]).0,
-                S::as_simd_f64s(&g[1]).0,
-                S::as_simd_f64s(&g[2]).0,
-            );
+        for (point, stress) in self.points.iter().zip(self.stresses) {
             for k in 0..3 {
-                let sx = simd.splat_f64s(w * stress[ROWS[k][0]]);
-                let sy = simd.splat_f64s(w * stress[ROWS[k][1]]);
-                let sz = simd.splat_f64s(w * stress[ROWS[k][2]]);
+                let sx = simd.splat_f64s(point.volume * stress[ROWS[k][0]]);
+                let sy = simd.splat_f64s(point.volume * stress[ROWS[k][1]]);
+                let sz = simd.splat_f64s(point.volume * stress[ROWS[k][2]]);
                 let out = S::as_mut_simd_f64s(&mut self.out[k]).0;
                 for (v, f) in out.iter_mut().enumerate() {
-                    let sum = simd.mul_add_f64s(gx[v], sx, *f);
-                    let sum = simd.mul_add_f64s(gy[v], sy, sum);
-                    *f = simd.mul_add_f64s(gz[v], sz, sum);
+                    let [gx, gy, gz] = point.lanes::<S>(v);
+                    let sum = simd.mul_add_f64s(gx, sx, *f);
+                    let sum = simd.mul_add_f64s(gy, sy, sum);
+                    *f = simd.mul_add_f64s(gz, sz, sum);
                 }
             }
         }
@@ -206,10 +179,6 @@ impl Stiffness<'_> {
     }
 }
 
-/// Starts at a line of the cache, so that no vector lies in two.
-#[repr(align(64))]
-pub(crate) struct Aligned<T>(pub(crate) T);
-
 /// w D B of one point for the nodes of one vector, by Voigt row and displacement direction.
 type Product<S> = [[<S as Simd>::f64s; 3]; 6];
 
@@ -226,17 +195,12 @@ fn products<S: Simd>(
     v: usize,
     db: &mut [Product<S>],
 ) {
-    for ((g, w), (d, t)) in points.iter().zip(tangents.iter().zip(db)) {
-        let (gx, gy, gz) = (
-            S::as_simd_f64s(&g[0]).0[v],
-            S::as_simd_f64s(&g[1]).0[v],
-            S::as_simd_f64s(&g[2]).0[v],
-        );
-        let (gx, gy, gz) = (
-            simd.mul_f64s(simd.splat_f64s(*w), gx),
-            simd.mul_f64s(simd.splat_f64s(*w), gy),
-            simd.mul_f64s(simd.splat_f64s(*w), gz),
-        );
+    for (point, (d, t)) in points.iter().zip(tangents.iter().zip(db)) {
+        let w = simd.splat_f64s(point.volume);
+        let [gx, gy, gz] = point.lanes::<S>(v);
+        let gx = simd.mul_f64s(w, gx);
+        let gy = simd.mul_f64s(w, gy);
+        let gz = simd.mul_f64s(w, gz);
         for i in 0..6 {
             for k in 0..3 {
                 let sum = simd.mul_f64s(simd.splat_f64s(d[(i, ROWS[k][0])]), gx);
@@ -252,9 +216,9 @@ fn products<S: Simd>(
 #[inline(always)]
 fn accumulate<S: Simd>(simd: S, points: &[Point], db: &[Product<S>], a: usize) -> Blocks<S> {
     let mut sums = [[simd.splat_f64s(0.0); 3]; 3];
-    for ((g, _), t) in points.iter().zip(db) {
+    for (point, t) in points.iter().zip(db) {
         for d in 0..3 {
-            let s = simd.splat_f64s(g[d][a]);
+            let s = simd.splat_f64s(point.gradients[d][a]);
             for k in 0..3 {
                 for l in 0..3 {
                     sums[k][l] = simd.mul_add_f64s(s, t[ROWS[k][d]][l], sums[k][l]);
@@ -288,10 +252,11 @@ fn add<S: Simd>(block: &Blocks<S>, a: usize, columns: std::ops::Range<usize>, ou
 mod tests {
     //! Protects the blocked kernel against the plain triple product.
     use super::*;
+    use crate::vectors::by_direction;
     use nalgebra::SMatrix;
 
     /// Strain matrix B, 6 x 60.
-    fn strain_matrix(g: &Gradients) -> SMatrix<f64, 6, 60> {
+    fn strain_matrix(g: &ByDirection<PAD>) -> SMatrix<f64, 6, 60> {
         let mut b = SMatrix::<f64, 6, 60>::zeros();
         for a in 0..20 {
             for k in 0..3 {
@@ -325,7 +290,10 @@ mod tests {
                 let d = d + d.transpose() + unsymmetry * d;
                 let b = strain_matrix(&g);
                 expected += b.transpose() * d * b * weight;
-                points.push((g, weight));
+                points.push(Point {
+                    gradients: g,
+                    volume: weight,
+                });
                 tangents.push(d);
             }
             let symmetric = unsymmetry == 0.0;
@@ -348,14 +316,18 @@ mod tests {
                 row[a] = value(k * 20 + a);
             }
         }
+        let point = |volume| Point {
+            gradients: g,
+            volume,
+        };
         let u: Vec<f64> = (0..60).map(value).collect();
         let e = strain_matrix(&g) * nalgebra::SVector::<f64, 60>::from_column_slice(&u);
         let mut strain = [Vector6::zeros()];
-        strains(&[(g, 1.0)], &by_direction(&u), &mut strain);
+        strains(&[point(1.0)], &by_direction(&u), &mut strain);
         assert!((strain[0] - e).norm() < 1e-12);
         let s = Vector6::from_fn(|i, _| value(2000 + i));
         let f = strain_matrix(&g).transpose() * s * 0.7;
-        let found = force(&[(g, 0.7)], &[s]);
+        let found = force(&[point(0.7)], &[s]);
         for i in 0..60 {
             assert!((found[i % 3][i / 3] - f[i]).abs() < 1e-12);
         }

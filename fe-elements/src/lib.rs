@@ -18,6 +18,7 @@ pub mod solid;
 mod surface;
 pub mod truss3;
 pub mod uniform;
+mod vectors;
 
 use fe_core::points;
 

@@ -4,47 +4,27 @@
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::kernel::Aligned;
+use crate::vectors::{self, Aligned, ByDirection, lanes};
 
 /// Nodes, which fill the widest vector.
 pub(super) const NODES: usize = 8;
 /// DOFs.
 const DOFS: usize = 3 * NODES;
 
-/// One value for each node, by direction.
-type ByDirection = [[f64; NODES]; 3];
-
-/// One point; it starts at a line of the cache, so that no vector lies in two.
-#[repr(align(64))]
-#[derive(Debug)]
-pub(super) struct Point {
-    /// du/dx and dv/dx, du/dy and dv/dy, dw/dz (1/mm) of the nodes.
-    pub(super) gradients: ByDirection,
-    /// Volume (mm3).
-    pub(super) volume: f64,
-}
-
-impl Point {
-    /// Gradients of the nodes of vector `i`.
-    #[allow(clippy::inline_always)]
-    #[inline(always)]
-    fn lanes<S: Simd>(&self, i: usize) -> [S::f64s; 3] {
-        let [x, y, z] = &self.gradients;
-        [lanes::<S>(x)[i], lanes::<S>(y)[i], lanes::<S>(z)[i]]
-    }
-}
+/// Gradients du/dx and dv/dx, du/dy and dv/dy, dw/dz (1/mm) of the nodes, and the volume, of one point.
+pub(super) type Point = vectors::Point<NODES>;
 
 /// Voigt rows of the strains that do not vanish: xx, yy, zz, xy.
 const ROWS: [usize; 4] = [0, 1, 2, 3];
 
 /// Strains B u (Voigt, engineering shear) at the points.
-pub(super) fn strains(points: &[Point], u: &ByDirection, out: &mut [Vector6<f64>]) {
+pub(super) fn strains(points: &[Point], u: &ByDirection<NODES>, out: &mut [Vector6<f64>]) {
     Arch::new().dispatch(Strains { points, u, out });
 }
 
 struct Strains<'a> {
     points: &'a [Point],
-    u: &'a ByDirection,
+    u: &'a ByDirection<NODES>,
     out: &'a mut [Vector6<f64>],
 }
 
@@ -55,17 +35,16 @@ impl WithSimd for Strains<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let [u, v, w] = self.u;
-        let (u, v, w) = (lanes::<S>(u), lanes::<S>(v), lanes::<S>(w));
         for (point, strain) in self.points.iter().zip(self.out) {
             let mut sums = [simd.splat_f64s(0.0); 4];
             for i in 0..NODES / S::F64_LANES {
                 let [x, y, z] = point.lanes::<S>(i);
-                sums[0] = simd.mul_add_f64s(x, u[i], sums[0]);
-                sums[1] = simd.mul_add_f64s(y, v[i], sums[1]);
-                sums[2] = simd.mul_add_f64s(z, w[i], sums[2]);
-                sums[3] = simd.mul_add_f64s(y, u[i], sums[3]);
-                sums[3] = simd.mul_add_f64s(x, v[i], sums[3]);
+                let [u, v, w] = lanes::<S, NODES>(self.u, i);
+                sums[0] = simd.mul_add_f64s(x, u, sums[0]);
+                sums[1] = simd.mul_add_f64s(y, v, sums[1]);
+                sums[2] = simd.mul_add_f64s(z, w, sums[2]);
+                sums[3] = simd.mul_add_f64s(y, u, sums[3]);
+                sums[3] = simd.mul_add_f64s(x, v, sums[3]);
             }
             *strain = Vector6::zeros();
             for (row, sum) in ROWS.into_iter().zip(sums) {
@@ -76,7 +55,7 @@ impl WithSimd for Strains<'_> {
 }
 
 /// Sum over the points of w B^T sigma, by direction.
-pub(super) fn force(points: &[Point], stresses: &[Vector6<f64>]) -> ByDirection {
+pub(super) fn force(points: &[Point], stresses: &[Vector6<f64>]) -> ByDirection<NODES> {
     let mut sums = [[0.0; NODES]; 3];
     Arch::new().dispatch(Force {
         points,
@@ -89,7 +68,7 @@ pub(super) fn force(points: &[Point], stresses: &[Vector6<f64>]) -> ByDirection 
 struct Force<'a> {
     points: &'a [Point],
     stresses: &'a [Vector6<f64>],
-    out: &'a mut ByDirection,
+    out: &'a mut ByDirection<NODES>,
 }
 
 impl WithSimd for Force<'_> {
@@ -196,24 +175,18 @@ impl WithSimd for Stiffness<'_> {
     }
 }
 
-#[allow(clippy::inline_always)]
-#[inline(always)]
-fn lanes<S: Simd>(values: &[f64; NODES]) -> &[S::f64s] {
-    S::as_simd_f64s(values).0
-}
-
 #[cfg(test)]
 mod tests {
     //! Protects the loops against the plain products with the strain matrix.
     use super::*;
-    use crate::kernel::{add_by_node, by_direction};
+    use crate::vectors::{add_by_node, by_direction};
     use nalgebra::{DMatrix, DVector, SMatrix};
 
     fn value(i: usize) -> f64 {
         ((i * i) as f64 * 0.37).sin()
     }
 
-    fn strain_matrix(g: &ByDirection) -> SMatrix<f64, 6, DOFS> {
+    fn strain_matrix(g: &ByDirection<NODES>) -> SMatrix<f64, 6, DOFS> {
         let mut b = SMatrix::<f64, 6, DOFS>::zeros();
         for a in 0..NODES {
             b[(0, 3 * a)] = g[0][a];

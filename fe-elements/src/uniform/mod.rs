@@ -13,8 +13,8 @@ use fe_core::shape::hex20 as shape;
 use nalgebra::{Matrix6, Vector6};
 
 use crate::hex20::{self, BandWidth, HexRule};
-use crate::kernel::{add_by_node, by_direction};
 use crate::solid::{Interpolation, SolidElement};
+use crate::vectors::{add_by_node, by_direction};
 use kernel::{NODES, Point};
 
 /// Hexahedron on the DOFs of the eight nodes that lead the others, see [`Followers::uniform_across`].
