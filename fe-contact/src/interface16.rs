@@ -51,27 +51,24 @@ struct Point {
 }
 
 impl Point {
-    /// Jump (mm) along t1, t2, n.
-    fn jump(&self, u: &[f64]) -> Vector3<f64> {
+    /// Jump (mm) along t1, t2, n, from those of the nodes.
+    fn jump(&self, nodes: &Jumps) -> Vector3<f64> {
         let mut jump = Vector3::zeros();
-        for (a, n) in self.values.iter().enumerate() {
+        for (n, node) in self.values.iter().zip(nodes) {
             for k in 0..3 {
-                jump[k] += n * (u[3 * (a + 8) + k] - u[3 * a + k]);
+                jump[k] += n * node[k];
             }
         }
         self.axes * jump
     }
+}
 
-    /// Signed shape functions: minus on the lower face, plus on the upper.
-    fn signed(&self) -> [f64; 16] {
-        std::array::from_fn(|a| {
-            if a < 8 {
-                -self.values[a]
-            } else {
-                self.values[a - 8]
-            }
-        })
-    }
+/// u_(a+8) - u_a (mm) of the 8 pairs of nodes.
+type Jumps = [[f64; 3]; 8];
+
+fn jumps(u: &[f64]) -> Jumps {
+    let (lower, upper) = u.split_at(N / 2);
+    std::array::from_fn(|a| std::array::from_fn(|k| upper[3 * a + k] - lower[3 * a + k]))
 }
 
 /// Interface of zero thickness between two faces of 8 nodes each.
@@ -230,16 +227,19 @@ impl Element for Interface16 {
     ) -> Result<(), ElementError> {
         let law = self.law.as_ref();
         let point_ctx = points::context(self.size, ctx);
+        let nodes = jumps(u);
         // Sums of w J N_a N_b D, of which the blocks of K are copies.
         let mut sums = (ctx.operator != Operator::None).then_some([[[[0.0; 3]; 3]; 8]; 8]);
         for (p, point) in self.points.iter().enumerate() {
             let states = (committed, &mut *trial);
-            let response = points::answer(law, (p, &point.jump(u)), states, &point_ctx)?;
-            let signed = point.signed();
+            let response = points::answer(law, (p, &point.jump(&nodes)), states, &point_ctx)?;
             let traction = point.axes.tr_mul(&response.stress) * point.area;
-            for (f, s) in out.force.chunks_exact_mut(3).zip(signed) {
+            let (lower, upper) = out.force.split_at_mut(N / 2);
+            let pairs = lower.chunks_exact_mut(3).zip(upper.chunks_exact_mut(3));
+            for ((lower, upper), n) in pairs.zip(point.values) {
                 for k in 0..3 {
-                    f[k] += s * traction[k];
+                    lower[k] -= n * traction[k];
+                    upper[k] += n * traction[k];
                 }
             }
             let Some(sums) = &mut sums else {
@@ -276,7 +276,8 @@ impl Element for Interface16 {
     }
 
     fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
-        let points = self.points.iter().map(|p| (p.area, p.jump(u)));
+        let nodes = jumps(u);
+        let points = self.points.iter().map(|p| (p.area, p.jump(&nodes)));
         points::free_energy(self.law.as_ref(), self.size, state, points)
     }
 
@@ -286,7 +287,9 @@ impl Element for Interface16 {
         state: &[f64],
         visit: &mut dyn FnMut(PointSample<'_>),
     ) -> Result<(), ElementError> {
-        let points = self.points.iter().map(|p| (p.position, p.area, p.jump(u)));
+        let nodes = jumps(u);
+        let point = |p: &Point| (p.position, p.area, p.jump(&nodes));
+        let points = self.points.iter().map(point);
         points::sample(self.law.as_ref(), self.size, state, points, visit)
     }
 }
