@@ -12,12 +12,10 @@ use fe_core::shape::{line3, quadrature};
 use nalgebra::{Vector1, Vector3};
 
 use super::cut::{Host, Piece};
+use super::row::Row;
 use super::{Bar, Dowel, gradients_at};
 use crate::led::columns;
 use crate::points;
-
-/// Row vector of the host's DOFs, node-major.
-type Row = Box<[f64]>;
 
 /// One Gauss point of a bar.
 #[derive(Debug, Clone)]
@@ -82,9 +80,7 @@ impl EmbeddedBar {
             row
         })?;
         for point in &mut element.points {
-            if let Some(shear) = &mut point.shear {
-                *shear = [&[0.0; 9], &**shear].concat().into();
-            }
+            point.shear = point.shear.as_ref().map(|shear| shear.after(9));
         }
         Ok(element)
     }
@@ -129,7 +125,7 @@ impl EmbeddedBar {
                 position: position.into(),
                 arc_length: piece.start + share * length,
                 weight: 0.5 * w * length,
-                axial: axial(xi, &g).into(),
+                axial: Row::new(&axial(xi, &g)),
                 shear: transverse.map(|n| shear_row(&g, piece.direction, n)),
             });
         }
@@ -141,16 +137,10 @@ impl EmbeddedBar {
     #[must_use]
     pub fn led_by(mut self, followers: &Followers) -> Self {
         let (leaders, columns) = columns(&self.nodes, self.dofs(), followers);
-        let fold = |row: &mut Row| {
-            let mut led = vec![0.0; 3 * leaders.len()];
-            for (r, &(c, t)) in row.iter().zip(&columns) {
-                led[c] += t * r;
-            }
-            *row = led.into();
-        };
+        let led = |row: &Row| row.led(&columns, 3 * leaders.len());
         for point in &mut self.points {
-            fold(&mut point.axial);
-            point.shear.as_mut().map(fold);
+            point.axial = led(&point.axial);
+            point.shear = point.shear.as_ref().map(led);
         }
         self.nodes = leaders;
         self
@@ -222,29 +212,12 @@ fn shear_row(g: &[[f64; 3]; 20], t: Vector3<f64>, n: Vector3<f64>) -> Row {
             row[3 * a + k] = along * n[k] + across * t[k];
         }
     }
-    row.into()
-}
-
-fn dot(row: &[f64], u: &[f64]) -> f64 {
-    row.iter().zip(u).map(|(a, b)| a * b).sum()
+    Row::new(&row)
 }
 
 /// Axial strain of a point.
 fn strain(point: &BarPoint, u: &[f64]) -> Vector1<f64> {
-    Vector1::new(dot(&point.axial, u))
-}
-
-/// Adds c a b^T to a matrix, to its upper triangle unless `full`.
-fn add_outer(c: f64, (a, b): (&[f64], &[f64]), full: bool, out: &mut [f64]) {
-    for (i, target) in out.chunks_exact_mut(b.len()).enumerate() {
-        let scaled = c * a[i];
-        if scaled != 0.0 {
-            let from = if full { 0 } else { i };
-            for (t, r) in target[from..].iter_mut().zip(&b[from..]) {
-                *t += scaled * r;
-            }
-        }
-    }
+    Vector1::new(point.axial.dot(u))
 }
 
 impl Element for EmbeddedBar {
@@ -289,11 +262,9 @@ impl Element for EmbeddedBar {
             let states = (committed, &mut *trial);
             let response = points::answer(law, (p, &strain(point, u)), states, &point_ctx)?;
             let axial = self.area * point.weight * response.stress[0];
-            for (f, b) in out.force.iter_mut().zip(&point.axial) {
-                *f += axial * b;
-            }
-            let mut add = |c: f64, rows: &[f64], columns: &[f64]| {
-                add_outer(c * point.weight, (rows, columns), full, out.stiffness);
+            point.axial.add(axial, out.force);
+            let mut add = |c: f64, rows: &Row, columns: &Row| {
+                rows.add_outer(c * point.weight, columns, (u.len(), full), out.stiffness);
             };
             let slope = response.tangent[(0, 0)];
             if ctx.operator != Operator::None {
@@ -303,13 +274,11 @@ impl Element for EmbeddedBar {
                 continue;
             };
             let kept = slid.get(p).copied().unwrap_or_default();
-            let across = dowel.at(dot(shear, u), kept, response.stress[0]);
+            let across = dowel.at(shear.dot(u), kept, response.stress[0]);
             if let Some(slid) = slid.get_mut(p) {
                 *slid = across.slid;
             }
-            for (f, b) in out.force.iter_mut().zip(shear.iter()) {
-                *f += across.force * point.weight * b;
-            }
+            shear.add(across.force * point.weight, out.force);
             match ctx.operator {
                 Operator::None => {}
                 Operator::Tangent => {
@@ -338,7 +307,7 @@ impl Element for EmbeddedBar {
         let slid = &state[self.axial_len()..];
         let dowel = self.points.iter().enumerate().filter_map(|(i, p)| {
             let slid = slid.get(i).copied();
-            let shear = dot(p.shear.as_ref()?, u);
+            let shear = p.shear.as_ref()?.dot(u);
             let stored = self.dowel?.free_energy(shear, slid.unwrap_or_default());
             Some(stored * p.weight)
         });

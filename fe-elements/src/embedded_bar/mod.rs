@@ -9,6 +9,7 @@
 mod cut;
 mod dowel;
 mod element;
+mod row;
 
 pub use cut::Piece;
 pub use dowel::Dowel;
