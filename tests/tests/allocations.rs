@@ -7,10 +7,12 @@ use fe_core::element::{Element, ElementSystem, EvaluationContext};
 use fe_core::kinematics::{Axial, Kinematics, Solid};
 use fe_core::material::{Material, Operator, PointContext};
 use fe_core::shape::hex20;
+use fe_core::sparsity::{MatrixValues, Sparsity};
 use fe_elements::{BandWidth, Hex20, HexRule, Led};
 use fe_materials::concrete::{ConcreteScalars, Isochoric, Objective};
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 use fe_materials::{Biso, Elastic, VonMises};
+use fe_solver::linear::{DirectSolver, LinearSolver};
 use nalgebra::{Vector1, Vector6};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 
@@ -72,15 +74,55 @@ fn element_allocations(element: &dyn Element) -> usize {
     allocations(|| steps(1..200))
 }
 
+/// Bytes that factorisations keep beyond those of the first ones, on one thread: of a grid of nodes with six equations each,
+/// whose parts are eliminated apart.
+fn kept_by_factorisations() -> usize {
+    let (nodes, width) = (30, 6);
+    let node = |x: u32, y: u32| (x * nodes + y) * width..(x * nodes + y + 1) * width;
+    let cells = (0..nodes - 1).flat_map(|x| (0..nodes - 1).map(move |y| (x, y)));
+    let groups: Vec<Vec<u32>> = cells
+        .map(|(x, y)| {
+            let corners = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
+            corners.into_iter().flat_map(|(x, y)| node(x, y)).collect()
+        })
+        .collect();
+    let n = (nodes * nodes * width) as usize;
+    let pattern = Sparsity::from_groups(n, groups.iter().map(Vec::as_slice));
+    let mut lower = vec![-1.0; pattern.nnz()];
+    for &diagonal in &pattern.col_ptr()[..n] {
+        lower[diagonal] = 1000.0;
+    }
+    let upper = Vec::new();
+    let values = MatrixValues { lower, upper };
+    let mut solver = DirectSolver::default();
+    solver.analyze(&pattern).unwrap();
+    let mut factorise = |times: usize| {
+        for _ in 0..times {
+            solver.factorize(&values).unwrap();
+        }
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let change = pool.unwrap().install(|| {
+        factorise(4);
+        let region = Region::new(COUNTING);
+        factorise(8);
+        region.change()
+    });
+    change
+        .bytes_allocated
+        .saturating_sub(change.bytes_deallocated)
+}
+
 fn concrete() -> FixedCrack {
     let p = FixedCrackParameters::from_strength(35.0, 2.7, 32_000.0);
     FixedCrack::new(p, None).unwrap()
 }
 
 /// Protects the hot loop: an update and the evaluation of a hexahedron, of its own nodes or hung between others, with and
-/// without operator, allocate nothing, from the first strain to an open crack. Tests of one binary share the counter, so there is one test.
+/// without operator, allocate nothing, from the first strain to an open crack. And the memory of long runs: factorisations
+/// that follow one another keep no more than the first ones. Tests of one binary share the counter, so there is one test.
 #[test]
-fn updates_and_elements_allocate_nothing() {
+fn updates_and_elements_allocate_nothing_and_factorisations_keep_nothing() {
     let counted = allocations(|| drop(std::hint::black_box(vec![0_u8; 7])));
     assert_eq!(counted, 1, "the counter counts");
     let scalars = ConcreteScalars::from_mean(35.0).unwrap();
@@ -112,4 +154,9 @@ fn updates_and_elements_allocate_nothing() {
     let hung = Led::hung(hexahedron(), 19, &[(20, 0.5), (21, 0.5)]);
     assert_eq!(element_allocations(hexahedron().as_ref()), 0, "hexahedron");
     assert_eq!(element_allocations(hung.as_ref()), 0, "hung hexahedron");
+    let kept = kept_by_factorisations();
+    assert!(
+        kept < 10_000,
+        "{kept} bytes more after eight factorisations"
+    );
 }

@@ -3,6 +3,7 @@
 //! The same operations in the same order whatever the number of threads.
 
 use std::ops::Range;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use fe_core::sparsity::MatrixValues;
@@ -40,12 +41,26 @@ pub(super) enum Failure {
     Error(LinearError),
 }
 
+/// Tools that threads take and give back, as many as ever work at the same time.
+#[derive(Debug, Default)]
+pub(super) struct Pool(Mutex<Vec<Tools>>);
+
+impl Pool {
+    fn take(&self, height: usize) -> Result<Tools, LinearError> {
+        let kept = self.kept().pop();
+        kept.map_or_else(|| Tools::new(height), Ok)
+    }
+
+    /// A panic of another thread leaves nothing half done in it.
+    fn kept(&self) -> MutexGuard<'_, Vec<Tools>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
 /// Memory of one thread.
-pub(super) struct Tools {
+struct Tools {
     kernel: MemBuffer,
     spare: Vec<f64>,
-    /// Updates no longer needed.
-    free: Vec<Vec<f64>>,
 }
 
 impl std::fmt::Debug for Tools {
@@ -60,7 +75,6 @@ impl Tools {
             kernel: MemBuffer::try_new(dense::scratch(height))
                 .map_err(|_| LinearError::OutOfMemory)?,
             spare: Vec::new(),
-            free: Vec::new(),
         })
     }
 }
@@ -144,10 +158,10 @@ impl Job<'_> {
         &self,
         range: Range<usize>,
         part: Part<'_>,
-        tools: &mut Vec<Tools>,
+        pool: &Pool,
     ) -> Result<Updates, Failure> {
         let Some((middle, end)) = self.halves(&range) else {
-            return self.sequence(range, part, Vec::new(), tools);
+            return self.sequence(range, part, Vec::new(), pool);
         };
         let list = &self.fronts.list;
         let (left, right) = part.split(&list[middle]);
@@ -157,16 +171,14 @@ impl Job<'_> {
         } else {
             (right, None)
         };
-        let mut others = tools.split_off(tools.len() / 2);
         let (a, b) = rayon::join(
-            || self.run(range.start..middle, left, tools),
-            || self.run(middle..end, right, &mut others),
+            || self.run(range.start..middle, left, pool),
+            || self.run(middle..end, right, pool),
         );
-        tools.append(&mut others);
         let mut updates = a?;
         updates.append(&mut b?);
         match rest {
-            Some(rest) => self.sequence(end..range.end, rest, updates, tools),
+            Some(rest) => self.sequence(end..range.end, rest, updates, pool),
             None => Ok(updates),
         }
     }
@@ -194,16 +206,14 @@ impl Job<'_> {
         range: Range<usize>,
         mut part: Part<'_>,
         mut updates: Updates,
-        tools: &mut Vec<Tools>,
+        pool: &Pool,
     ) -> Result<Updates, Failure> {
-        if tools.is_empty() {
-            let height = self.fronts.height();
-            tools.push(Tools::new(height).map_err(Failure::Error)?);
-        }
-        let tools = &mut tools[0];
+        let height = self.fronts.height();
+        let mut tools = pool.take(height).map_err(Failure::Error)?;
         for front in range {
-            self.eliminate(front, &mut part, &mut updates, tools)?;
+            self.eliminate(front, &mut part, &mut updates, &mut tools)?;
         }
+        pool.kept().push(tools);
         Ok(updates)
     }
 
@@ -228,8 +238,7 @@ impl Job<'_> {
             self.fronts.extend_panel(child, update, &mut panel);
         }
         let rest = height - width;
-        let mut update = tools.free.pop().unwrap_or_default();
-        update.resize(rest * rest, 0.0);
+        let mut update = vec![0.0; rest * rest];
         let stack = MemStack::new(&mut tools.kernel);
         match self.kind {
             Kind::Definite => dense::cholesky(&mut panel, &mut update, stack)?,
@@ -245,7 +254,6 @@ impl Job<'_> {
             .zip(updates.drain(first..).rev())
         {
             self.fronts.extend_update(child, &old, &mut update, general);
-            tools.free.push(old);
         }
         updates.push(update);
         Ok(())

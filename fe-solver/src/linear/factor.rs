@@ -4,7 +4,7 @@ use fe_core::sparsity::MatrixValues;
 
 use super::LinearError;
 use super::blocks::{Blocks, Inverse};
-use super::elimination::{Failure, Job, Kind, Part, Tools};
+use super::elimination::{Failure, Job, Kind, Part, Pool};
 use super::fronts::Fronts;
 use super::triangular;
 
@@ -16,7 +16,7 @@ pub(super) struct Factor {
     upper: Vec<f64>,
     subdiagonal: Vec<f64>,
     pivots: [Vec<usize>; 2],
-    tools: Vec<Tools>,
+    pool: Pool,
     /// Right-hand side in the order of elimination, and the part that a front sees.
     right: [Vec<f64>; 2],
 }
@@ -36,7 +36,7 @@ impl Factor {
             upper: Vec::new(),
             subdiagonal: vec![0.0; n],
             pivots: [vec![0; n], vec![0; n]],
-            tools: Vec::new(),
+            pool: Pool::default(),
             right: [vec![0.0; n], vec![0.0; fronts.height()]],
         })
     }
@@ -71,7 +71,7 @@ impl Factor {
             subdiagonal: &mut self.subdiagonal,
             pivots: [forward, backward],
         };
-        match job.run(0..fronts.list.len(), part, &mut self.tools) {
+        match job.run(0..fronts.list.len(), part, &self.pool) {
             Ok(_) => Ok(true),
             Err(Failure::Indefinite) => Ok(false),
             Err(Failure::Error(error)) => Err(error),
