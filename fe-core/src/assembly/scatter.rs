@@ -15,7 +15,8 @@ pub(super) const NONE: u32 = u32::MAX;
 const ABOVE: u32 = 1 << 31;
 
 /// Where the upper triangle of an element's matrix goes: where the columns of its equations begin, and the places there,
-/// which elements in like surroundings share.
+/// which elements in like surroundings share. Patterns of more than 2^32 entries (32 GiB of values) are beyond a direct
+/// solver.
 #[derive(Debug)]
 pub(super) struct Scatter {
     begins: Vec<u32>,

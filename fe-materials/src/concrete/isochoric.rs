@@ -97,6 +97,7 @@ impl Isochoric {
         &self.elastic
     }
 
+    /// Answer to a trial stress that is elastic.
     pub(crate) const fn elastic_response(&self, stress: Vector6<f64>) -> Response<Solid> {
         Response {
             stress,
@@ -104,18 +105,26 @@ impl Isochoric {
         }
     }
 
-    /// Stress, state and operator at a total strain, hardening along `curve`.
-    pub(crate) fn respond(
+    /// Stress (MPa) of a total strain if nothing yields.
+    pub(crate) fn trial_stress(
         &self,
         strain: &Vector6<f64>,
+        plastic: &PlasticState,
+    ) -> Vector6<f64> {
+        self.elastic.stress(&(strain - plastic.strain))
+    }
+
+    /// Stress, state and operator from a trial stress, hardening along `curve`.
+    pub(crate) fn respond(
+        &self,
+        trial: &Vector6<f64>,
         committed: &PlasticState,
         curve: &CompressionCurve,
         operator: Operator,
     ) -> Result<PlasticReturn, MaterialError> {
-        let trial = self.elastic.stress(&(strain - committed.strain));
-        let (principal, axes) = principal(&stress_tensor(&trial));
+        let (principal, axes) = principal(&stress_tensor(trial));
         let elastic = PlasticReturn {
-            stress: trial,
+            stress: *trial,
             principal,
             axes,
             state: *committed,
@@ -283,12 +292,12 @@ impl Material<Solid> for Isochoric {
     ) -> Result<Response<Solid>, MaterialError> {
         finite(LAW, strain)?;
         let plastic = PlasticState::read(committed);
-        let stress = self.elastic.stress(&(strain - plastic.strain));
+        let stress = self.trial_stress(strain, &plastic);
         if surely_elastic(&stress, plastic.kappa, &self.curve) {
             trial.copy_from_slice(committed);
             return Ok(self.elastic_response(stress));
         }
-        let response = self.respond(strain, &plastic, &self.curve, ctx.operator)?;
+        let response = self.respond(&stress, &plastic, &self.curve, ctx.operator)?;
         response.state.write(trial);
         Ok(Response {
             stress: response.stress,

@@ -11,8 +11,8 @@ use super::shear::{Factor, HISTORY, Retention};
 use super::{Envelopes, FixedCrack, OPERATOR_FLOOR, State, wants_secant, wants_tangent};
 
 impl FixedCrack {
-    /// Stress of a cracked point, with its principal strains if they are known; updates the histories. `onset` tells that the first crack opens in this very
-    /// update: its axes then still follow the strain.
+    /// Stress of a cracked point, with its principal strains if they are known; updates the histories. `onset` tells that
+    /// the first crack opens in this very update: its axes then still follow the strain.
     pub(super) fn cracked(
         &self,
         (strain, known): (&Vector6<f64>, Option<&Principal>),

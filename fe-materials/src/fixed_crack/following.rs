@@ -1,13 +1,12 @@
 //! Axes of a crack that follow the strain while it still bridges some of its strength.
 
 use fe_core::material::PointContext;
-use fe_core::principal::{Principal, principal};
-use fe_core::voigt::strain_tensor;
+use fe_core::principal::Principal;
 use nalgebra::Vector6;
 
 use super::confinement::Pressed;
 use super::curves::Tension;
-use super::{Envelopes, FixedCrack, State};
+use super::{Envelopes, FixedCrack, State, principal_strains};
 
 /// Share of the tensile strength up to which stresses are equal, as those of an open crack and of its sound plane are.
 const TIE: f64 = 1e-6;
@@ -28,9 +27,7 @@ impl FixedCrack {
             state.fixed = true;
             return;
         }
-        let (e, axes) = known
-            .copied()
-            .unwrap_or_else(|| principal(&strain_tensor(strain)));
+        let (e, axes) = principal_strains(strain, known);
         let grown = |k: f64, e: f64| k + ctx.relaxation * (e - k).max(0.0);
         let kt = std::array::from_fn(|i| grown(state.kt[i], e[i]));
         let kc = [state.kc.into_iter().fold(0.0, f64::max); 3];

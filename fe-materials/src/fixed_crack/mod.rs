@@ -302,8 +302,7 @@ impl FixedCrack {
         let mut state = State::read(committed);
         let onset = !state.cracked;
         let intact = onset && {
-            let found = known.copied();
-            let found = found.unwrap_or_else(|| principal(&strain_tensor(strain)));
+            let found = principal_strains(strain, known);
             self.uncracked(found, &mut state, (ctx, envelopes), out)
         };
         if !intact {
@@ -483,6 +482,13 @@ impl Material<Solid> for FixedCrack {
             ..PointReport::default()
         }
     }
+}
+
+/// Principal strains, found unless they are known.
+fn principal_strains(strain: &Vector6<f64>, known: Option<&Principal>) -> Principal {
+    known
+        .copied()
+        .unwrap_or_else(|| principal(&strain_tensor(strain)))
 }
 
 /// A response to fill.

@@ -202,17 +202,14 @@ impl Material<Solid> for Objective {
         let softening = self.softening(ctx.band_width)?;
         let curve = self.compression(ctx.band_width);
         let mut state = State::read(committed);
-        let stress = self
-            .plastic
-            .elastic()
-            .stress(&(strain - state.plastic.strain));
+        let stress = self.plastic.trial_stress(strain, &state.plastic);
         if self.stays_intact(&stress, &state, &curve) {
             trial.copy_from_slice(committed);
             return Ok(self.plastic.elastic_response(stress));
         }
         let effective = self
             .plastic
-            .respond(strain, &state.plastic, &curve, ctx.operator)?;
+            .respond(&stress, &state.plastic, &curve, ctx.operator)?;
         let drive = self.drive(&effective.principal);
         let growth = drive.value - state.kt;
         state.kt += ctx.relaxation * growth.max(0.0);

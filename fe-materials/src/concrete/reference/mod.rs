@@ -107,8 +107,7 @@ impl Reference {
         state: &mut State,
         ctx: &PointContext,
     ) -> Result<Option<Response<Solid>>, MaterialError> {
-        let elastic = self.uncracked.elastic();
-        let stress = elastic.stress(&(strain - state.plastic.strain));
+        let stress = self.uncracked.trial_stress(strain, &state.plastic);
         // F <= fcm/fctm times the sum: below fctm the surface is not reached.
         let (kappa, curve) = (state.plastic.kappa, self.curve());
         if absolute_sum(&stress) < self.strength() && surely_elastic(&stress, kappa, curve) {
@@ -116,7 +115,7 @@ impl Reference {
         }
         let answer = self
             .uncracked
-            .respond(strain, &state.plastic, self.curve(), ctx.operator)?;
+            .respond(&stress, &state.plastic, curve, ctx.operator)?;
         let surface = self.uncracked.surface();
         let reached = surface.principal_effective_stress(&answer.principal) >= surface.strength();
         if reached && answer.principal[0] >= 0.5 * self.strength() {
