@@ -28,10 +28,11 @@ impl FixedCrack {
             self.follow((strain, known), state, &tension, (ctx, envelopes));
         }
         let following = !onset && !state.fixed;
-        if turning && !following {
-            state.turn(strain);
-        }
-        let e = strain_into(&state.axes, strain);
+        let e = if turning && !following {
+            state.turn(strain)
+        } else {
+            strain_into(&state.axes, strain)
+        };
         let young = self.p.young_mpa;
         let derive = wants_tangent(ctx);
         let mut local = Vector6::zeros();
@@ -70,7 +71,11 @@ impl FixedCrack {
         }
         for i in 0..3 {
             state.crushing = state.crushing.max(compression.crushing(state.kc[i]));
-            let (soft, soft_slopes) = self.softening(&state.kt, i, ctx.band_width);
+            let (soft, soft_slopes) = if e[i] >= 0.0 {
+                (1.0, [0.0; 3])
+            } else {
+                self.softening(&state.kt, i, ctx.band_width)
+            };
             let (bridged, by_kt) = tension[i].secant(state.kt[i]);
             let bridged_slope = retention.growing[i] * by_kt;
             let (whole, by_kc) = compression.secant(state.kc[i]);
@@ -149,10 +154,12 @@ impl FixedCrack {
         let mut state = *state;
         if !state.fixed {
             state.axes = principal(&strain_tensor(strain)).1;
-        } else if !state.second {
-            state.turn(strain);
         }
-        let e = strain_into(&state.axes, strain);
+        let e = if state.fixed && !state.second {
+            state.turn(strain)
+        } else {
+            strain_into(&state.axes, strain)
+        };
         let mut energy = self.shear_energy(&state, &e);
         for i in 0..3 {
             let bridged = tension[i].secant(state.kt[i]).0;
@@ -166,13 +173,18 @@ impl FixedCrack {
 }
 
 impl State {
-    /// Turns the axes in the plane of the first crack into the principal ones of the strain there, the larger first.
-    fn turn(&mut self, strain: &Vector6<f64>) {
+    /// Turns the axes in the plane of the first crack into the principal ones of the strain there, the larger first; returns
+    /// the strains along them.
+    fn turn(&mut self, strain: &Vector6<f64>) -> Vector6<f64> {
         let e = strain_into(&self.axes, strain);
+        if e[4] == 0.0 && e[1] >= e[2] {
+            return e;
+        }
         let (sin, cos) = (0.5 * e[4].atan2(e[1] - e[2])).sin_cos();
         let s = self.axes.column(1) * cos + self.axes.column(2) * sin;
         let t = self.axes.column(2) * cos - self.axes.column(1) * sin;
         self.axes.set_column(1, &s);
         self.axes.set_column(2, &t);
+        strain_into(&self.axes, strain)
     }
 }

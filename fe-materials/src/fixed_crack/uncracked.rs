@@ -120,6 +120,6 @@ impl FixedCrack {
             return None;
         }
         let sigma = Vector6::new(stress[0], stress[1], stress[2], 0.0, 0.0, 0.0);
-        (ottosen.effective_stress(&sigma) >= self.p.fcm_mpa).then_some(largest)
+        ottosen.reaches(&sigma, self.p.fcm_mpa).then_some(largest)
     }
 }

@@ -88,7 +88,7 @@ impl Ottosen {
     }
 
     /// F and S = 2 F - A for given A and J2, free of cancellation.
-    fn solve(&self, a: f64, j2: f64) -> (f64, f64) {
+    pub(super) fn solve(&self, a: f64, j2: f64) -> (f64, f64) {
         let s = (a * a + 4.0 * self.alpha * j2).sqrt();
         let f = if a >= 0.0 {
             0.5 * (a + s)

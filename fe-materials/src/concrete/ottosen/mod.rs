@@ -40,6 +40,9 @@ pub struct Ottosen {
     c2: f64,
 }
 
+/// Relative rounding that the bound of [`Ottosen::reaches`] may have.
+const ROUNDING: f64 = 1e-9;
+
 impl Ottosen {
     /// Uniaxial compressive strength fc (MPa).
     pub const fn strength(&self) -> f64 {
@@ -84,6 +87,14 @@ impl Ottosen {
     /// Effective stress F (MPa) of a Voigt stress (MPa); F = fc on the surface.
     pub fn effective_stress(&self, stress: &Vector6<f64>) -> f64 {
         self.value(&Invariants::of_voigt(stress))
+    }
+
+    /// Whether the effective stress F of a Voigt stress (MPa) is at least `limit` (MPa). Mostly told without the Lode angle:
+    /// F grows with lambda, which is largest on the tensile meridian.
+    pub fn reaches(&self, stress: &Vector6<f64>, limit: f64) -> bool {
+        let q = Invariants::of_voigt(stress);
+        let bound = self.solve(self.lambda_t * q.j2.sqrt() + self.beta * q.i1, q.j2);
+        bound.0 >= limit * (1.0 - ROUNDING) && self.value(&q) >= limit
     }
 
     /// Effective stress F (MPa) of three principal stresses (MPa), in any order.

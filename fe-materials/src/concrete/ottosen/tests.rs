@@ -269,6 +269,14 @@ proptest! {
         prop_assert!((g.dot(&s) - f).abs() <= 1e-11 * (g.norm() * s.norm()).max(f));
     }
 
+    /// The bound hides no stress that reaches the limit, not even one at it.
+    #[test]
+    fn reaches_what_it_is_worth(s in stress(), share in prop::sample::select(vec![0.5, 0.999, 1.0, 1.001, 2.0])) {
+        let surface = of_fck(27.5);
+        let f = surface.effective_stress(&s);
+        prop_assert_eq!(surface.reaches(&s, share * f), f >= share * f);
+    }
+
     /// The gradient of a Voigt stress against central differences, relative 1e-6.
     #[test]
     fn gradient_against_differences(s in stress()) {
