@@ -169,7 +169,6 @@ impl StepControl {
             let attempt = self.attempt(stage, driver, (recorder, &mut heard), plan);
             match attempt {
                 Ok(mut attempt) if attempt.converged || may_flag => {
-                    let counters = *stage.counters();
                     let (signs, change) = self.measure(stage, &attempt)?;
                     if driver.balances() && change.creates_energy() {
                         if can_shorten {
@@ -197,7 +196,7 @@ impl StepControl {
                         attempts,
                         attempt,
                         base: stage.state().base_changes(),
-                        counters,
+                        counters: *stage.counters(),
                         load: None,
                         iterations: std::mem::take(&mut heard.iterations),
                         memory: driver.memory(),
@@ -397,8 +396,8 @@ impl StepControl {
         for note in &entry.notes {
             recorder.note(step, note)?;
         }
-        *stage.counters_mut() = entry.counters;
         let (signs, _) = self.measure(stage, &entry.attempt)?;
+        *stage.counters_mut() = entry.counters;
         Self::accept(stage, recorder, step, (entry, signs))
     }
 }
