@@ -29,7 +29,7 @@ fn slip_and_damage_are_drawn() {
     let nodes = std::array::from_fn(|a| a);
     let rule = InterfaceRule::Gauss3;
     let element = Interface16::new(nodes, &face, [1.0, 0.0, 0.0], rule, Arc::new(law)).unwrap();
-    let model = Model::new(mesh, vec![Box::new(element) as Box<dyn Element>]);
+    let model = Model::new(mesh, vec![Box::new(element) as Box<dyn Element>]).unwrap();
     let mut u = vec![0.0; model.dofs().len()];
     for node in 8..16 {
         u[model.dof(node, fe_core::dof::Dof::Uy).unwrap()] = 0.1;

@@ -50,7 +50,7 @@ impl Element for Spring {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mesh = Mesh::new((0..4).map(|i| [10.0 * f64::from(i), 0.0, 0.0]).collect())?;
     let springs = (0..3).map(|i| Box::new(Spring([i, i + 1])) as Box<dyn Element>);
-    let model = Model::new(mesh, springs.collect());
+    let model = Model::new(mesh, springs.collect())?;
     let mut conditions = Conditions::new(&model);
     conditions.fix(&model, 0, Dof::Ux)?;
     conditions.add_reference(&model, 3, Dof::Ux, 100.0)?;

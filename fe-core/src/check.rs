@@ -21,18 +21,15 @@ const MOTIONS: [&str; 6] = [
     "turn about an axis along z",
 ];
 
-/// Makes sure that the conditions hold every connected part of a model against rigid motion, and that their loads are
-/// numbers.
+/// Makes sure that the conditions hold every connected part of a model against rigid motion.
 ///
 /// Parts are connected by the nodes that elements share. A part is held if the rows of its rigid motions that belong to
 /// prescribed DOFs have the rank of all its rows. Mechanisms inside a part are left to the solver.
 ///
 /// # Errors
 ///
-/// [`ModelError::NotHeld`] for the first part that can move, [`ModelError::NotFinite`] for a load or a rate that is no
-/// number.
+/// [`ModelError::NotHeld`] for the first part that can move.
 pub fn held(model: &Model, conditions: &Conditions) -> Result<(), ModelError> {
-    finite(model, conditions)?;
     for part in parts(model) {
         free_motion(model, conditions, &part)?;
     }
@@ -70,31 +67,6 @@ pub fn joined(model: &Model) -> Result<(), ModelError> {
                 return Err(ModelError::Seam {
                     nodes: [a.min(b), a.max(b)],
                     position: x(a),
-                });
-            }
-        }
-    }
-    Ok(())
-}
-
-fn finite(model: &Model, conditions: &Conditions) -> Result<(), ModelError> {
-    let mut dead = vec![0.0; model.dofs().len()];
-    conditions.external(0.0, &mut dead);
-    let reference = conditions.reference();
-    for d in 0..dead.len() {
-        let rate = conditions.prescribed().get(&d).copied().unwrap_or(0.0);
-        for (what, value) in [
-            ("dead load", dead[d]),
-            ("load", reference[d]),
-            ("prescribed displacement", rate),
-        ] {
-            if !value.is_finite() {
-                let (node, dof) = model.dofs().owner(d);
-                return Err(ModelError::NotFinite {
-                    what,
-                    node,
-                    dof,
-                    position: model.mesh().nodes()[node],
                 });
             }
         }

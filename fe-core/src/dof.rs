@@ -2,6 +2,7 @@
 
 use crate::element::Element;
 use crate::mesh::{Mesh, NodeId};
+use crate::model::ModelError;
 
 /// A nodal degree of freedom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -49,10 +50,18 @@ const UNUSED: u32 = u32::MAX;
 
 impl DofMap {
     /// Numbers the DOFs that `elements` use.
-    pub fn new(mesh: &Mesh, elements: &[Box<dyn Element>]) -> Self {
-        let mut used = vec![[false; 6]; mesh.nodes().len()];
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError::NoSuchNode`] for an element on a node that the mesh does not have.
+    pub fn new(mesh: &Mesh, elements: &[Box<dyn Element>]) -> Result<Self, ModelError> {
+        let nodes = mesh.nodes().len();
+        let mut used = vec![[false; 6]; nodes];
         for element in elements {
             for &node in element.nodes() {
+                if node >= nodes {
+                    return Err(ModelError::NoSuchNode { node, nodes });
+                }
                 for &dof in element.dofs() {
                     used[node][dof as usize] = true;
                 }
@@ -68,7 +77,7 @@ impl DofMap {
                 }
             }
         }
-        Self { index, owner }
+        Ok(Self { index, owner })
     }
 
     /// Number of DOFs, constrained ones included.

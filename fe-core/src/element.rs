@@ -210,7 +210,10 @@ pub trait Element: Debug + Send + Sync {
         false
     }
 
-    /// Recoverable energy (N mm) of the element, if it is known, see [`free_energy`](crate::points::free_energy).
+    /// Recoverable energy (N mm) of the element, see [`free_energy`](crate::points::free_energy), which does it for elements
+    /// of points. Without one the element is taken to unload to the origin, half the product of its forces and
+    /// displacements: one that keeps permanent displacements must give it, or its unloading counts as creating energy and
+    /// is refused.
     fn free_energy(&self, _u: &[f64], _state: &[f64]) -> Option<f64> {
         None
     }

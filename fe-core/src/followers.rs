@@ -19,11 +19,13 @@ impl Followers {
     ///
     /// u(x, y, z) = u(x, y),  v(x, y, z) = v(x, y),  w(x, y, z) = z/z_leader w(x, y)
     ///
-    /// Nodes with z < 0 are not of the half body and lead themselves.
+    /// Nodes with z < 0, and nodes that the mesh does not have, are not of the half body and lead themselves.
     pub fn uniform_across(mesh: &Mesh, nodes: impl IntoIterator<Item = NodeId>) -> Self {
         let mut columns: BTreeMap<[i64; 2], Vec<NodeId>> = BTreeMap::new();
         for node in nodes {
-            let [x, y, z] = mesh.nodes()[node];
+            let Some(&[x, y, z]) = mesh.nodes().get(node) else {
+                continue;
+            };
             if z >= 0.0 {
                 let place = [x, y].map(|c| (c / SAME).round() as i64);
                 columns.entry(place).or_default().push(node);

@@ -96,7 +96,7 @@ pub struct PointReport {
     pub crack_strain: f64,
     /// Unit normal of that crack, zero without a crack.
     pub crack_normal: [f64; 3],
-    /// Plastic strain, Voigt (-); a uniaxial law uses the first component.
+    /// Plastic strain (-), component by component as the strain; a uniaxial law uses the first one.
     pub plastic_strain: [f64; 6],
     /// Share of the compressive capacity that crushing has consumed: 0 before the peak of the
     /// uniaxial curve, 1 at its residual stress.

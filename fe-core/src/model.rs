@@ -36,7 +36,7 @@ pub enum ModelError {
         /// Position of the node (mm).
         position: [f64; 3],
     },
-    /// A condition names a node that does not exist.
+    /// An element or a condition names a node that does not exist.
     #[error("node {node} does not exist; the mesh has {nodes} nodes")]
     NoSuchNode {
         /// Node asked for.
@@ -112,24 +112,32 @@ pub struct Model {
 
 impl Model {
     /// Numbers the DOFs of the elements.
-    pub fn new(mesh: Mesh, elements: Vec<Box<dyn Element>>) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError::NoSuchNode`] for an element on a node that the mesh does not have.
+    pub fn new(mesh: Mesh, elements: Vec<Box<dyn Element>>) -> Result<Self, ModelError> {
         Self::with_followers(mesh, elements, Followers::default())
     }
 
     /// The same where some nodes follow others. Elements are built on leaders only; conditions on followers are passed on
     /// to their leaders.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError::NoSuchNode`] for an element on a node that the mesh does not have.
     pub fn with_followers(
         mesh: Mesh,
         elements: Vec<Box<dyn Element>>,
         followers: Followers,
-    ) -> Self {
-        let dofs = DofMap::new(&mesh, &elements);
-        Self {
+    ) -> Result<Self, ModelError> {
+        let dofs = DofMap::new(&mesh, &elements)?;
+        Ok(Self {
             mesh,
             elements,
             dofs,
             followers,
-        }
+        })
     }
 
     /// Nodes that follow others.
@@ -173,6 +181,24 @@ impl Model {
         let (leader, factor) = self.followers.dof(node, dof);
         let index = self.dofs.index(leader, dof);
         index.map_or_else(|| Err(self.unused(node, dof)), |d| Ok((d, factor)))
+    }
+
+    /// Makes sure that a condition is a finite number.
+    fn finite(
+        &self,
+        (what, value): (&'static str, f64),
+        node: NodeId,
+        dof: Dof,
+    ) -> Result<(), ModelError> {
+        if value.is_finite() {
+            return Ok(());
+        }
+        Err(ModelError::NotFinite {
+            what,
+            node,
+            dof,
+            position: self.mesh.nodes()[node],
+        })
     }
 
     fn unused(&self, node: NodeId, dof: Dof) -> ModelError {
@@ -283,7 +309,7 @@ impl Conditions {
     ///
     /// # Errors
     ///
-    /// [`ModelError`] for a node or DOF that is not there.
+    /// [`ModelError`] for a node or DOF that is not there, or a rate that is not a finite number.
     pub fn prescribe(
         &mut self,
         model: &Model,
@@ -292,6 +318,7 @@ impl Conditions {
         rate: f64,
     ) -> Result<(), ModelError> {
         let (d, factor) = model.leading(node, dof)?;
+        model.finite(("prescribed displacement", rate), node, dof)?;
         if factor != 0.0 {
             self.prescribed.insert(d, rate / factor);
         } else if rate != 0.0 {
@@ -304,7 +331,7 @@ impl Conditions {
     ///
     /// # Errors
     ///
-    /// [`ModelError`] for a node or DOF that is not there.
+    /// [`ModelError`] for a node or DOF that is not there, or a force that is not a finite number.
     pub fn add_dead(
         &mut self,
         model: &Model,
@@ -313,6 +340,7 @@ impl Conditions {
         force: f64,
     ) -> Result<(), ModelError> {
         let (d, factor) = model.leading(node, dof)?;
+        model.finite(("dead load", force), node, dof)?;
         self.dead[d] += factor * force;
         Ok(())
     }
@@ -321,7 +349,7 @@ impl Conditions {
     ///
     /// # Errors
     ///
-    /// [`ModelError`] for a node or DOF that is not there.
+    /// [`ModelError`] for a node or DOF that is not there, or a force that is not a finite number.
     pub fn add_reference(
         &mut self,
         model: &Model,
@@ -330,6 +358,7 @@ impl Conditions {
         force: f64,
     ) -> Result<(), ModelError> {
         let (d, factor) = model.leading(node, dof)?;
+        model.finite(("load", force), node, dof)?;
         self.reference[d] += factor * force;
         Ok(())
     }

@@ -102,13 +102,8 @@ fn along_secant<K: Kinematics>(
     let plastic = law.report(strain, state).plastic_strain;
     let parts = K::components(&stress).iter().zip(K::components(strain));
     let whole: f64 = parts.map(|(s, e)| s * e).sum();
-    let solid = K::components(&stress).len() == plastic.len();
-    let lost: f64 = if solid {
-        let parts = K::components(&stress).iter().zip(&plastic);
-        parts.map(|(s, e)| s * e).sum()
-    } else {
-        0.0
-    };
+    let parts = K::components(&stress).iter().zip(&plastic);
+    let lost: f64 = parts.map(|(s, e)| s * e).sum();
     Some(0.5 * (whole - lost))
 }
 

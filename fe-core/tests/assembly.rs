@@ -37,7 +37,7 @@ fn lattice_of(law: Flaw, cells: [u32; 3], flaw: impl Fn(usize) -> Flaw) -> Model
             }
         }
     }
-    Model::new(mesh, elements)
+    Model::new(mesh, elements).unwrap()
 }
 
 /// Holds the end x = 0, pulls one DOF of the node with the largest number.

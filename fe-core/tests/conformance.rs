@@ -177,6 +177,14 @@ fn element_failure(law: Flaw, truss: Flaw) -> CheckFailure {
     check_element(&element, &ENDS, &ElementCheck::new(0.05)).unwrap_err()
 }
 
+/// Turning about its axis moves no node of it.
+#[test]
+fn a_bar_along_an_axis_passes() {
+    let ends = [[0.0; 3], [10.0, 0.0, 0.0]];
+    let element = Truss::new([0, 1], &ends, Arc::new(Damage(Flaw::None)), Flaw::None);
+    check_element(&element, &ends, &ElementCheck::new(0.05)).unwrap();
+}
+
 #[test]
 fn a_sound_element_passes() {
     let element = Truss::new([0, 1], &ENDS, Arc::new(Damage(Flaw::None)), Flaw::None);

@@ -107,7 +107,7 @@ fn dofs_are_numbered_along_the_longest_axis() {
         grid.add_box("beam", &lines[0], &lines[1], &lines[2]);
         let mesh = grid.finish().unwrap();
         let elements = bricks(&mesh);
-        let model = Model::new(mesh, elements);
+        let model = Model::new(mesh, elements).unwrap();
         let dofs = model.dofs();
         assert_eq!(dofs.len(), 3 * model.mesh().nodes().len());
         let along: Vec<f64> = (0..dofs.len())
@@ -129,7 +129,7 @@ fn a_plane_of_symmetry_holds_its_normal_displacement_only() {
     let mut mesh = cube();
     mesh.add_set("middle", |x| x[0] == 1.0).unwrap();
     let elements = bricks(&mesh);
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements).unwrap();
     let mut conditions = Conditions::new(&model);
     conditions.fix_set(&model, "middle", Dof::Ux).unwrap();
     let assembler = Assembler::new(&model, &conditions);
@@ -150,7 +150,7 @@ fn a_plane_of_symmetry_holds_its_normal_displacement_only() {
 fn conditions_add_loads_and_refuse_what_is_not_there() {
     let mesh = cube();
     let elements = bricks(&mesh);
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements).unwrap();
     let mut conditions = Conditions::new(&model);
     conditions.add_dead(&model, 3, Dof::Uy, 2.0).unwrap();
     conditions.add_reference(&model, 3, Dof::Uy, 10.0).unwrap();
@@ -171,7 +171,25 @@ fn conditions_add_loads_and_refuse_what_is_not_there() {
         conditions.prescribe(&model, 0, Dof::Rz, 1.0),
         Err(ModelError::UnusedDof { .. })
     ));
+    for result in [
+        conditions.prescribe(&model, 3, Dof::Uy, f64::NAN),
+        conditions.add_dead(&model, 3, Dof::Uy, f64::INFINITY),
+        conditions.add_reference(&model, 3, Dof::Uy, f64::NAN),
+    ] {
+        assert!(matches!(result, Err(ModelError::NotFinite { node: 3, .. })));
+    }
     assert!(conditions.prescribed().is_empty());
+}
+
+#[test]
+fn an_element_on_a_node_that_is_not_there_is_refused() {
+    let ends = [[0.0; 3], [10.0, 0.0, 0.0]];
+    let bar = Truss::new([0, 2], &ends, Arc::new(Damage(Flaw::None)), Flaw::None);
+    let mesh = Mesh::new(ends.to_vec()).unwrap();
+    assert_eq!(
+        Model::new(mesh, vec![Box::new(bar)]).unwrap_err(),
+        ModelError::NoSuchNode { node: 2, nodes: 2 }
+    );
 }
 
 /// Committed, base and trial through one step: a trial is taken or dropped as a whole, and what is
@@ -184,7 +202,7 @@ fn the_state_store_commits_rolls_back_and_latches() {
         Box::new(Truss::new([0, 1], &ends, law.clone(), Flaw::None)),
         Box::new(Truss::new([0, 1], &ends, law, Flaw::None)),
     ];
-    let model = Model::new(Mesh::new(ends.to_vec()).unwrap(), elements);
+    let model = Model::new(Mesh::new(ends.to_vec()).unwrap(), elements).unwrap();
     let mut state = StateStore::new(model.elements());
     assert_eq!((state.range(1), state.all_committed().len()), (2..4, 4));
     let mut assembler = Assembler::new(&model, &Conditions::new(&model));

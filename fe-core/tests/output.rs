@@ -92,7 +92,7 @@ fn model() -> (Model, Vec<f64>, StateStore) {
         brick.segment = (i == 1).then_some([[25.0, 2.0, 1.0], [45.0, 8.0, 3.0]]);
         elements.push(Box::new(brick));
     }
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements).unwrap();
     let u = (0..model.dofs().len())
         .map(|i| {
             let (node, dof) = model.dofs().owner(i);

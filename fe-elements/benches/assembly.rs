@@ -45,7 +45,7 @@ fn beam(unsymmetric: bool) -> Model {
             Box::new(hex.expect("a valid cell")) as Box<dyn Element>
         })
         .collect();
-    Model::new(mesh, elements)
+    Model::new(mesh, elements).unwrap()
 }
 
 /// Clamped at one end, pushed down at the other.

@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             band,
         )?));
     }
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements)?;
 
     let mut conditions = Conditions::new(&model);
     for node in (0..model.mesh().nodes().len()).filter(|&n| model.mesh().nodes()[n][0] == 0.0) {

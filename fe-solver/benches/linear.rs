@@ -34,7 +34,7 @@ fn cantilever() -> (Model, Conditions) {
         Box::new(element.expect("a cell")) as Box<dyn Element>
     });
     let elements = elements.collect();
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements).unwrap();
     let mut conditions = Conditions::new(&model);
     for (node, x) in model.mesh().nodes().iter().enumerate() {
         if x[0] == 0.0 {

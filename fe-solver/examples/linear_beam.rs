@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             band,
         )?));
     }
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements)?;
 
     // Half of a beam: z = 0 is a plane of symmetry. Supports and loads at the corner nodes of lines.
     let mut conditions = Conditions::new(&model);

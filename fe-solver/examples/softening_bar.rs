@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let (rule, band) = (HexRule::Full, BandWidth::Fixed(100.0));
         elements.push(Box::new(Hex20::new(nodes, &coords, rule, law, band)?));
     }
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements)?;
     let mut conditions = Conditions::new(&model);
     for (node, x) in model.mesh().nodes().iter().enumerate() {
         conditions.fix(&model, node, Dof::Uy)?;

@@ -78,7 +78,7 @@ pub fn bare_beam(
     let [left, right] = SUPPORTS.map(|place| line(place, 0.0));
     let loads = LOADS.map(|place| line(place, SIZE[1])).concat();
     let symmetry = nodes_where(&mesh, |p| p[2] == 0.0);
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements)?;
     let mut conditions = Conditions::new(&model);
     for &n in &symmetry {
         conditions.fix(&model, n, Dof::Uz)?;

@@ -165,7 +165,7 @@ pub fn cell(side: f64, rule: HexRule, law: Arc<dyn Material<Solid>>) -> Result<M
     let mesh = boxes(&line, &line, &line)?;
     let (nodes, coords) = cells(&mesh, &mesh.blocks()[0]).next().ok_or("no cell")?;
     let cube = Hex20::new(nodes, &coords, rule, law, BandWidth::Fixed(side))?;
-    Ok(Model::new(mesh, vec![Box::new(cube)]))
+    Ok(Model::new(mesh, vec![Box::new(cube)])?)
 }
 
 /// Mean stress (MPa) at equal steps of strain up to `end`, computed on the cube; the first point is at rest.

@@ -105,7 +105,7 @@ pub fn arms(x: &[f64], law: impl Fn(f64) -> Option<Arc<dyn Material<Interface>>>
             Interface16::new(nodes, &coords, [1.0, 0.0, 0.0], rule, law).expect("a specimen");
         elements.push(Box::new(element) as Box<dyn Element>);
     }
-    Model::new(mesh, elements)
+    Model::new(mesh, elements).expect("a specimen")
 }
 
 /// Grid lines: 5 mm outside, 1 mm between `from` and `to`.

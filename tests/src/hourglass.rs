@@ -23,7 +23,7 @@ pub fn energy_of_a_mechanism(rule: HexRule, residual: f64) -> Result<f64, Failur
     let side = lines(0.0, 50.0, 1);
     let mesh = boxes(&lines(0.0, 200.0, 4), &side, &side)?;
     let elements = hexahedra(&mesh, HexRule::Reduced, &elastic(30_000.0, 0.2)?)?;
-    let alone = Model::new(mesh, elements);
+    let alone = Model::new(mesh, elements)?;
     let mut clamped = Conditions::new(&alone);
     hold(&alone, &mut clamped, &Dof::DISPLACEMENTS, |x| x[0] == 0.0)?;
     let shape = DenseModel::new(&alone, &clamped)?
@@ -47,7 +47,7 @@ pub fn energy_of_a_mechanism(rule: HexRule, residual: f64) -> Result<f64, Failur
         let law = elastic(young, 0.2)?;
         elements.extend(hexahedra_of(&mesh, block, rule, &law)?);
     }
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements)?;
     let mut u = vec![0.0; model.dofs().len()];
     for (node, x) in alone.mesh().nodes().iter().enumerate() {
         let same = nodes_where(model.mesh(), |y| y == *x)[0];

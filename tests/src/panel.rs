@@ -96,7 +96,7 @@ impl Panel {
                 }
             }
         }
-        Ok(Model::new(mesh, elements))
+        Ok(Model::new(mesh, elements)?)
     }
 
     /// Stress under shear tractions on the four edges, free to strain along both axes, until an edge has moved by `drift` times the

@@ -93,7 +93,7 @@ fn cracking(length: f64, strengths: &[Option<f64>]) -> Model {
             Hex20::new(nodes, &coords, HexRule::Full, law, band).expect("a bar"),
         ));
     }
-    Model::new(mesh, elements)
+    Model::new(mesh, elements).expect("a bar")
 }
 
 /// Supports of a bar without lateral contraction: one end held.

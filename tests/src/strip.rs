@@ -121,7 +121,7 @@ impl Strip {
         mesh.add_block("sheet", CellKind::Quad8, cells.concat())
             .expect("nodes are there");
         Ok(Self {
-            model: Model::new(mesh, elements),
+            model: Model::new(mesh, elements).expect("nodes are there"),
             sheet: (0..count).collect(),
             face: (count..2 * count).collect(),
         })

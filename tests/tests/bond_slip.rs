@@ -95,7 +95,7 @@ fn block(n: usize, curve: ModelCode) -> (Model, Vec<NodeId>) {
         ));
     }
     (
-        Model::new(mesh, elements),
+        Model::new(mesh, elements).unwrap(),
         (first..=first + 2 * n).collect(),
     )
 }

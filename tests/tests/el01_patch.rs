@@ -56,7 +56,7 @@ fn a_linear_field_is_reproduced() {
     for rule in [HexRule::Reduced, HexRule::Irons, HexRule::Full] {
         let mesh = quadratic(&[INNER, OUTER].concat(), &CELLS).unwrap();
         let elements = hexahedra(&mesh, rule, &elastic(1e6, 0.25).unwrap()).unwrap();
-        let model = Model::new(mesh, elements);
+        let model = Model::new(mesh, elements).unwrap();
         let mut conditions = Conditions::new(&model);
         for (node, &x) in model.mesh().nodes().iter().enumerate() {
             if x.iter().any(|&c| c == 0.0 || c == 1.0) {

@@ -28,7 +28,7 @@ fn block(cells: [usize; 3], size: [f64; 3], rule: HexRule) -> Model {
     let [x, y, z] = std::array::from_fn(|k| lines(0.0, size[k], cells[k]));
     let mesh = boxes(&x, &y, &z).unwrap();
     let elements = hexahedra(&mesh, rule, &elastic(30_000.0, 0.2).unwrap()).unwrap();
-    Model::new(mesh, elements)
+    Model::new(mesh, elements).unwrap()
 }
 
 /// Cells of 50 mm.
@@ -71,7 +71,7 @@ fn one_quadrilateral() {
         let law: Arc<dyn Material<PlaneStress>> = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
         let mesh = quadrilaterals(1, |x, y| [50.0 * x, 50.0 * y]).unwrap();
         let elements = sheets(&mesh, 1.0, rule, &law).unwrap();
-        let model = Model::new(mesh, elements);
+        let model = Model::new(mesh, elements).unwrap();
         assert_eq!(zeros(&model, &Conditions::new(&model)), expected);
     }
 }
@@ -85,7 +85,7 @@ fn one_membrane() {
         let mesh = quadrilaterals(1, |x, y| [50.0 * x, 50.0 * y + 7.0 * x * y]).unwrap();
         let mesh = mapped(&mesh, oblique).unwrap();
         let elements = membranes(&mesh, 1.0, rule, [1.0, 0.0, 0.0], &law).unwrap();
-        let model = Model::new(mesh, elements);
+        let model = Model::new(mesh, elements).unwrap();
         assert_eq!(zeros(&model, &Conditions::new(&model)), expected);
     }
 }
@@ -104,7 +104,7 @@ fn shells_have_six_rigid_body_modes() {
                 let mesh = surface(cells, map).unwrap();
                 let section = isotropic(30_000.0, 0.2, 10.0);
                 let elements = shells(&mesh, &section, rule, [1.0, 0.0, 0.0]).unwrap();
-                let model = Model::new(mesh, elements);
+                let model = Model::new(mesh, elements).unwrap();
                 let found = zeros(&model, &Conditions::new(&model));
                 assert_eq!(found, expected, "{rule:?} {cells:?} {bend}");
             }
@@ -208,7 +208,7 @@ fn a_hinged_block_of_an_unsymmetric_law_is_refused() {
     let line = lines(0.0, 500.0, 5);
     let mesh = boxes(&line, &line, &line).unwrap();
     let elements = hexahedra(&mesh, HexRule::Full, &law).unwrap();
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements).unwrap();
     let mut conditions = Conditions::new(&model);
     let hinge = |x: [f64; 3]| x[0] == 0.0 && x[1] == 0.0;
     hold(&model, &mut conditions, &[Dof::Uz], plane(2)).unwrap();

@@ -58,7 +58,7 @@ fn curved() -> Mesh {
 
 fn model(mesh: Mesh, poisson: f64, rule: HexRule) -> Model {
     let elements = hexahedra(&mesh, rule, &elastic(1e7, poisson).unwrap()).unwrap();
-    Model::new(mesh, elements)
+    Model::new(mesh, elements).unwrap()
 }
 
 /// Mean displacement of the tip along the unit force, with the root (`plane` x = 0) clamped.

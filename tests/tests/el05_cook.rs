@@ -71,7 +71,7 @@ fn deflection(n: usize, rule: QuadRule) -> f64 {
     let mesh = mesh(n);
     let plane = mesh.nodes().to_vec();
     let elements = sheets(&mesh, 1.0, rule, &law()).unwrap();
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements).unwrap();
     let up = [0.0, 1.0, 0.0];
     let (conditions, middle) = conditions(&model, n, &plane, &[Dof::Ux, Dof::Uy], up);
     solve(&model, conditions)
@@ -84,7 +84,7 @@ fn deflection_in_space(n: usize, rule: QuadRule) -> f64 {
     let plane = mesh(n);
     let mesh = mapped(&plane, oblique).unwrap();
     let elements = membranes(&mesh, 1.0, rule, [1.0, 0.0, 0.0], &law()).unwrap();
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements).unwrap();
     let up = oblique([0.0, 1.0, 0.0]);
     let (conditions, middle) = conditions(&model, n, plane.nodes(), &Dof::DISPLACEMENTS, up);
     let u = DenseModel::new(&model, &conditions)

@@ -28,7 +28,7 @@ fn tube(n: usize, rule: HexRule) -> (Model, Solution) {
     })
     .unwrap();
     let elements = hexahedra(&mesh, rule, &elastic(210e3, 0.3).unwrap()).unwrap();
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements).unwrap();
     let mut conditions = Conditions::new(&model);
     hold(&model, &mut conditions, &[Dof::Ux], |x| x[0] == 0.0).unwrap();
     hold(&model, &mut conditions, &[Dof::Uy], |x| x[1] == 0.0).unwrap();

@@ -38,7 +38,7 @@ fn stress_at_d([along, across, through]: [usize; 3], rule: HexRule) -> [f64; 2] 
     .unwrap();
     let law = elastic(210e3, 0.3).unwrap();
     let elements = hexahedra(&mesh, rule, &law).unwrap();
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements).unwrap();
     let mut conditions = Conditions::new(&model);
     let rim = |x: [f64; 3]| ((x[0] / 3250.0).hypot(x[1] / 2750.0) - 1.0).abs() < 1e-9;
     hold(&model, &mut conditions, &[Dof::Ux], |x| {

@@ -58,7 +58,7 @@ fn run(driver: &mut dyn Driver, earlier: Vec<Entry>) -> Seen {
     let elements = hexahedra(&mesh, HexRule::Full, &law).unwrap();
     let root = nodes_where(&mesh, |x| x[0] == 0.0);
     let tip = nodes_where(&mesh, |x| x[0] == 120.0 && x[1] == 20.0);
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements).unwrap();
     let mut conditions = Conditions::new(&model);
     for node in root {
         for dof in Dof::DISPLACEMENTS {

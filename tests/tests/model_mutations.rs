@@ -86,7 +86,7 @@ impl Parts {
                 band,
             )?));
         }
-        let model = Model::new(mesh, elements);
+        let model = Model::new(mesh, elements).unwrap();
         let mut conditions = Conditions::new(&model);
         for &(node, dof, rate) in &self.held {
             conditions.prescribe(&model, node, dof, rate)?;

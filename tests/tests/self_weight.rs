@@ -34,7 +34,8 @@ fn reactions_carry_the_weight() {
     let model = Model::new(
         mesh.clone(),
         hexahedra(&mesh, HexRule::Reduced, &law).unwrap(),
-    );
+    )
+    .unwrap();
     let mut conditions = Conditions::new(&model);
     hold(&model, &mut conditions, &Dof::DISPLACEMENTS, |x| {
         x[0] == 0.0

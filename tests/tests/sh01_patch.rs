@@ -82,7 +82,7 @@ fn shell_patch(
     let mesh = mapped(&flat, turn).unwrap();
     let axis = turn([1.0, 0.0, 0.0]);
     let elements = shells(&mesh, &isotropic(1e6, 0.25, 0.001), rule, axis).unwrap();
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements).unwrap();
     let exact = |x: [f64; 3]| -> Vec<f64> { field(x).map(turn).concat() };
     let mut conditions = Conditions::new(&model);
     let mut scale = [0.0_f64; 2];
@@ -165,7 +165,7 @@ fn membrane_patch_of_membranes() {
             let mesh = mapped(&flat, turn).unwrap();
             let axis = turn([1.0, 0.0, 0.0]);
             let elements = membranes(&mesh, 0.001, rule, axis, &law).unwrap();
-            let model = Model::new(mesh, elements);
+            let model = Model::new(mesh, elements).unwrap();
             // The exact field on the outline as a load: K u = 0 inside, split into known and unknown.
             let mut conditions = Conditions::new(&model);
             let mut known = vec![0.0; model.dofs().len()];

@@ -31,7 +31,7 @@ fn model(
 ) -> Model {
     let mesh = surface([n, n], map).unwrap();
     let elements = shells(&mesh, section, rule, axis).unwrap();
-    Model::new(mesh, elements)
+    Model::new(mesh, elements).unwrap()
 }
 
 /// A cylinder along x from the middle x = 0, generator at `angle` (radians, 0 to `opening`) from the z axis.

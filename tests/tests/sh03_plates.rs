@@ -33,7 +33,7 @@ fn deflection(n: usize, rule: QuadRule, t: f64, edge: Edge, distortion: f64) -> 
     })
     .unwrap();
     let elements = shells(&mesh, &isotropic(1e6, 0.3, t), rule, [1.0, 0.0, 0.0]).unwrap();
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements).unwrap();
     let mut conditions = Conditions::new(&model);
     let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
     let clamped = matches!(edge, Edge::Clamped);

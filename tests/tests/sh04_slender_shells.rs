@@ -66,7 +66,7 @@ fn tip(
     dof: Dof,
 ) -> f64 {
     let elements = shells(&mesh, section, rule, [1.0, 0.5, 0.0]).unwrap();
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements).unwrap();
     let nodes = nodes_where(model.mesh(), end);
     assert_eq!(nodes.len(), 3);
     let middle = model.elements()[CELLS - 1].nodes()[5];

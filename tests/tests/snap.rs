@@ -54,7 +54,7 @@ fn bars() -> Model {
             Hex20::new(nodes, &coords, HexRule::Full, law, band).unwrap(),
         ));
     }
-    Model::new(mesh, elements)
+    Model::new(mesh, elements).unwrap()
 }
 
 /// Protects the descent over a snap and the balance of energy across it. Targets: the peak at ft and u = ft L/E within 1 %;

@@ -46,7 +46,7 @@ fn tie(n: usize, weak: f64) -> Model {
     for element in bar(&mesh) {
         elements.push(Box::new(element));
     }
-    Model::new(mesh, elements)
+    Model::new(mesh, elements).unwrap()
 }
 
 /// The bar along the axis.

@@ -50,7 +50,7 @@ impl Piece {
             elements.push(Box::new(element));
         }
         Self {
-            model: Model::new(mesh, elements),
+            model: Model::new(mesh, elements).unwrap(),
         }
     }
 

@@ -257,7 +257,7 @@ fn conditions_follow() {
     let law: Arc<dyn Material<Solid>> = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
     let (rule, band) = (HexRule::Full, BandWidth::CubeRoot);
     let element = UniformHex20::new(CELL, &coords(&mesh), &followers, rule, law, band).unwrap();
-    let model = Model::with_followers(mesh, vec![Box::new(element)], followers);
+    let model = Model::with_followers(mesh, vec![Box::new(element)], followers).unwrap();
     // Node 16 lies half-way between node 0 on the plane of symmetry and node 4, which leads both.
     let d = |dof| model.dof(4, dof).unwrap();
     assert_eq!(model.dof(16, Dof::Ux).unwrap(), d(Dof::Ux));

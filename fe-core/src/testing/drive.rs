@@ -96,9 +96,13 @@ impl<'a> Drive<'a> {
         self.element.latch(&answer.state, &mut self.base);
     }
 
-    /// Largest force of a motion of the virgin element, relative to stiffness times displacement.
+    /// Largest force of a motion of the virgin element, relative to stiffness times displacement; none of one that moves no
+    /// node, as turning a bar about its axis does.
     pub(super) fn rigid(&self, motion: &Motion) -> Result<f64, CheckFailure> {
         let largest = motion.values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        if largest == 0.0 {
+            return Ok(0.0);
+        }
         let scale = self.check.amplitude[0] / largest;
         let u: Vec<f64> = motion.values.iter().map(|v| scale * v).collect();
         let force = self.evaluate(&u, Operator::None, f64::NAN)?.force;

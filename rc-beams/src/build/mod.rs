@@ -224,7 +224,7 @@ impl Beam {
             }
             None => None,
         };
-        let model = Model::with_followers(mesh, elements, followers);
+        let model = Model::with_followers(mesh, elements, followers)?;
         let measures = Measures::new(specimen, &model)?;
         let [weight, loading, unloading] =
             conditions::stages(specimen, &model, &measures, &weight)?;

@@ -117,7 +117,7 @@ fn strip(
         held.extend(face.nodes);
         sheet.extend(above);
     }
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements).map_err(BuildError::from)?;
     let mut conditions = Conditions::new(&model);
     let end = count * size;
     let fix = |conditions: &mut Conditions, node, dof| conditions.fix(&model, node, dof);

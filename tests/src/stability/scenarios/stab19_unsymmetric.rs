@@ -26,7 +26,7 @@ fn block() -> Result<(Model, Conditions), Failure> {
     let [x, y, z] = [(200.0, 4), (100.0, 2), (50.0, 1)].map(|(end, n)| lines(0.0, end, n));
     let mesh = boxes(&x, &y, &z)?;
     let elements = hexahedra(&mesh, HexRule::Full, &law)?;
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements)?;
     let mut conditions = Conditions::new(&model);
     hold(&model, &mut conditions, &Dof::DISPLACEMENTS, |x| {
         x[0] == 0.0

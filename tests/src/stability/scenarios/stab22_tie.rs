@@ -75,7 +75,7 @@ fn tie(n: usize) -> Result<(Model, Vec<NodeId>), Failure> {
         elements.push(Box::new(BondSlip::new(all, &places, &coords, &bond)?));
     }
     Ok((
-        Model::new(mesh, elements),
+        Model::new(mesh, elements)?,
         (first..=first + 2 * n).collect(),
     ))
 }

@@ -43,7 +43,7 @@ fn tractions(rule: InterfaceRule) -> Result<[f64; 2], Failure> {
         .flatten()
         .map(|n| count + n)
         .collect();
-    let model = Model::new(mesh, elements);
+    let model = Model::new(mesh, elements)?;
     let mut conditions = Conditions::new(&model);
     for node in ground {
         for dof in Dof::DISPLACEMENTS {
