@@ -92,6 +92,14 @@ impl StepControl {
                 allowed: "(0, 1)",
             });
         }
+        let share = self.longest_share;
+        if !(share.is_finite() && share >= 0.0) {
+            return Err(SolverError::Setting {
+                what: "longest step over the load factor",
+                value: share,
+                allowed: "[0, inf)",
+            });
+        }
         for (what, value) in [
             ("first step", self.initial),
             ("longest step", self.longest),
@@ -450,6 +458,13 @@ mod tests {
         let good = StepControl::new(0.1, 1.0);
         assert!(good.check().is_ok());
         for (what, bad) in [
+            (
+                "longest step over the load factor",
+                StepControl {
+                    longest_share: f64::NAN,
+                    ..good
+                },
+            ),
             (
                 "first step",
                 StepControl {

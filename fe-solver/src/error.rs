@@ -90,6 +90,18 @@ pub enum SolverError {
         /// Allowed range.
         allowed: &'static str,
     },
+    /// What is given belongs to another model.
+    #[error(
+        "{what} of length {found} for a model that asks for {expected}: build it from the same model"
+    )]
+    Mismatch {
+        /// What is given.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// Length that fits the model.
+        expected: usize,
+    },
 }
 
 impl SolverError {

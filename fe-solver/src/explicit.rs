@@ -73,11 +73,42 @@ pub struct Explicit {
 
 impl Explicit {
     /// A driver with the given settings.
-    pub fn new(settings: ExplicitSettings) -> Self {
-        Self {
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError::Setting`] for periods or a ramp that are no positive numbers, a damping outside [0, 1] or a time step
+    /// outside (0, 2).
+    pub fn new(settings: ExplicitSettings) -> Result<Self, SolverError> {
+        let s = settings;
+        let positive = |x: f64| x.is_finite() && x > 0.0;
+        for (what, value, allowed, fits) in [
+            ("periods", s.periods, "(0, inf)", positive(s.periods)),
+            (
+                "damping",
+                s.damping,
+                "[0, 1]",
+                (0.0..=1.0).contains(&s.damping),
+            ),
+            (
+                "time_step",
+                s.time_step,
+                "(0, 2)",
+                positive(s.time_step) && s.time_step < 2.0,
+            ),
+            ("ramp", s.ramp, "(0, inf)", positive(s.ramp)),
+        ] {
+            if !fits {
+                return Err(SolverError::Setting {
+                    what,
+                    value,
+                    allowed,
+                });
+            }
+        }
+        Ok(Self {
             settings,
             motion: Motion::default(),
-        }
+        })
     }
 
     /// Masses and lowest frequency from the stiffness at the accepted state; at rest.

@@ -102,6 +102,13 @@ impl Driver for NewtonRaphson {
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
         let s = self.settings;
+        if s.operator == Operator::None {
+            return Err(SolverError::Setting {
+                what: "operator of Newton-Raphson (none: 0)",
+                value: 0.0,
+                allowed: "tangent or secant",
+            });
+        }
         self.constraint.begin(stage, request.length)?;
         let [tangent, force] = [s.operator, Operator::None].map(|operator| EvaluationContext {
             relaxation: self.relaxation,

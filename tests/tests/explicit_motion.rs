@@ -85,6 +85,7 @@ fn moving(periods: f64) -> Explicit {
         periods,
         ..ExplicitSettings::default()
     })
+    .unwrap()
 }
 
 #[test]

@@ -23,7 +23,14 @@ impl FreeDisplacement {
 }
 
 impl PathConstraint for FreeDisplacement {
-    fn begin(&mut self, _stage: &Stage<'_>, length: f64) -> Result<(), SolverError> {
+    fn begin(&mut self, stage: &Stage<'_>, length: f64) -> Result<(), SolverError> {
+        if self.equation >= stage.assembler().free().len() {
+            return Err(SolverError::Setting {
+                what: "equation of the controlled displacement",
+                value: self.equation as f64,
+                allowed: "the free equations of the stage",
+            });
+        }
         self.length = length;
         Ok(())
     }

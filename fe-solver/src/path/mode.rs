@@ -33,7 +33,15 @@ impl Mode {
 }
 
 impl PathConstraint for Mode {
-    fn begin(&mut self, _stage: &Stage<'_>, length: f64) -> Result<(), SolverError> {
+    fn begin(&mut self, stage: &Stage<'_>, length: f64) -> Result<(), SolverError> {
+        let (found, expected) = (self.0.gradient.len(), stage.assembler().free().len());
+        if found != expected {
+            return Err(SolverError::Mismatch {
+                what: "mode",
+                found,
+                expected,
+            });
+        }
         self.0.length = length;
         Ok(())
     }

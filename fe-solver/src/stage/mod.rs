@@ -86,13 +86,29 @@ impl<'m> Stage<'m> {
     ///
     /// # Errors
     ///
-    /// [`SolverError::Linear`] when the analysis fails.
+    /// [`SolverError::Mismatch`] for conditions, states or displacements of another model, [`SolverError::Linear`] when the
+    /// analysis fails.
     pub fn new(
         model: &'m Model,
         conditions: Conditions,
         state: &'m mut StateStore,
         start: Vec<f64>,
     ) -> Result<Self, SolverError> {
+        let dofs = model.dofs().len();
+        let variables = model.elements().iter().map(|e| e.state_len()).sum();
+        for (what, found, expected) in [
+            ("displacement", start.len(), dofs),
+            ("conditions", conditions.reference().len(), dofs),
+            ("history variables", state.all_committed().len(), variables),
+        ] {
+            if found != expected {
+                return Err(SolverError::Mismatch {
+                    what,
+                    found,
+                    expected,
+                });
+            }
+        }
         let assembler = Assembler::new(model, &conditions);
         let mut linear = DirectSolver::default();
         linear

@@ -7,7 +7,7 @@ use fe_contact::envelope::Envelope as _;
 use fe_core::mesh::NodeId;
 use fe_core::state::StateStore;
 use fe_solver::control::StepControl;
-use fe_solver::recorder::{Continue, Recorder, StepView};
+use fe_solver::recorder::Silent;
 use fe_solver::secant::SecantAnderson;
 use fe_solver::stage::Stage;
 
@@ -43,14 +43,6 @@ fn volume(beam: &Beam, element: usize) -> f64 {
 
 fn sheets(beam: &Beam) -> &SheetRecord {
     beam.sheets.as_ref().unwrap()
-}
-
-struct Silent;
-
-impl Recorder for Silent {
-    fn step(&mut self, _view: &StepView<'_>) -> std::io::Result<Continue> {
-        Ok(Continue::Yes)
-    }
 }
 
 /// Source: the layouts of the specimens. Membranes hold the volume of their plies, 0.165 mm each (twice over

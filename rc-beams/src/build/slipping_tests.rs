@@ -9,7 +9,7 @@ use fe_contact::envelope::ModelCode;
 use fe_core::mesh::NodeId;
 use fe_core::state::StateStore;
 use fe_solver::control::StepControl;
-use fe_solver::recorder::{Continue, Recorder, StepView};
+use fe_solver::recorder::Silent;
 use fe_solver::secant::SecantAnderson;
 use fe_solver::stage::Stage;
 
@@ -50,14 +50,6 @@ fn volume(beam: &Beam, elements: std::ops::Range<usize>) -> f64 {
         sampled.unwrap();
     }
     sum
-}
-
-struct Silent;
-
-impl Recorder for Silent {
-    fn step(&mut self, _view: &StepView<'_>) -> std::io::Result<Continue> {
-        Ok(Continue::Yes)
-    }
 }
 
 /// Deflection (mm) under self weight, which cracks nothing, and the reactions of the whole beam (N).

@@ -4,7 +4,7 @@ use fe_core::element::EvaluationContext;
 use fe_core::material::Operator;
 use fe_core::state::StateStore;
 use fe_solver::control::StepControl;
-use fe_solver::recorder::{Continue, Recorder, StepView};
+use fe_solver::recorder::Silent;
 use fe_solver::secant::SecantAnderson;
 use fe_solver::stage::Stage;
 
@@ -20,14 +20,6 @@ fn specimen(name: &str) -> Specimen {
 fn beam(name: &str) -> Beam {
     let specimen = specimen(name);
     Beam::new(&specimen, &ModelSettings::new(Preset::Physical, &specimen)).unwrap()
-}
-
-struct Silent;
-
-impl Recorder for Silent {
-    fn step(&mut self, _view: &StepView<'_>) -> std::io::Result<Continue> {
-        Ok(Continue::Yes)
-    }
 }
 
 /// specimens.md: a beam of series A weighs 3.477 kN, carried by its supports before loading.

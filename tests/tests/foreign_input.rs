@@ -1,0 +1,142 @@
+//! Protects users of the solver from input that does not fit: one error that names it, no panic and no endless run.
+
+use fe_core::dof::Dof;
+use fe_core::grid::GridBuilder;
+use fe_core::material::Operator;
+use fe_core::model::{Conditions, Model};
+use fe_core::state::StateStore;
+use fe_elements::{BandWidth, Hex20, HexRule};
+use fe_materials::Elastic;
+use fe_solver::control::StepControl;
+use fe_solver::error::SolverError;
+use fe_solver::explicit::{Explicit, ExplicitSettings};
+use fe_solver::newton::{NewtonRaphson, NewtonSettings};
+use fe_solver::path::{FreeDisplacement, Mode, PathConstraint};
+use fe_solver::recorder::Silent;
+use fe_solver::stage::Stage;
+use std::sync::Arc;
+
+/// A row of cubes, held on the left and pulled on the right.
+fn row(cubes: usize) -> (Model, Conditions) {
+    let x: Vec<f64> = (0..=cubes).map(|i| i as f64).collect();
+    let mut grid = GridBuilder::new();
+    grid.add_box("row", &x, &[0.0, 1.0], &[0.0, 1.0]);
+    let mut mesh = grid.finish().unwrap();
+    mesh.add_set("left", |x| x[0] == 0.0).unwrap();
+    let law = Arc::new(Elastic::new(100.0, 0.0).unwrap());
+    let mut elements: Vec<Box<dyn fe_core::element::Element>> = Vec::new();
+    for cell in mesh.blocks()[0].cells() {
+        let nodes = std::array::from_fn(|a| cell[a]);
+        let coords = nodes.map(|n: usize| mesh.nodes()[n]);
+        let hex = Hex20::new(
+            nodes,
+            &coords,
+            HexRule::Full,
+            law.clone(),
+            BandWidth::CubeRoot,
+        );
+        elements.push(Box::new(hex.unwrap()));
+    }
+    let model = Model::new(mesh, elements).unwrap();
+    let mut conditions = Conditions::new(&model);
+    for dof in Dof::DISPLACEMENTS {
+        conditions.fix_set(&model, "left", dof).unwrap();
+    }
+    let end = (0..model.mesh().nodes().len())
+        .find(|&n| model.mesh().nodes()[n] == [cubes as f64, 0.0, 0.0]);
+    conditions
+        .add_reference(&model, end.unwrap(), Dof::Ux, 1.0)
+        .unwrap();
+    (model, conditions)
+}
+
+#[test]
+fn what_belongs_to_another_model_is_refused() {
+    let ((model, conditions), (other, foreign)) = (row(1), row(2));
+    let zero = |model: &Model| vec![0.0; model.dofs().len()];
+    let mut state = StateStore::new(model.elements());
+    for (conditions, start, wrong) in [
+        (conditions.clone(), zero(&other), "displacement"),
+        (conditions.clone(), Vec::new(), "displacement"),
+        (foreign, zero(&model), "conditions"),
+    ] {
+        let refused = Stage::new(&model, conditions, &mut state, start).err();
+        assert!(
+            matches!(refused, Some(SolverError::Mismatch { what, .. }) if what == wrong),
+            "{wrong}: {refused:?}"
+        );
+    }
+}
+
+#[test]
+fn a_path_that_is_not_of_the_stage_is_refused() {
+    let (model, conditions) = row(1);
+    let run = |settings: NewtonSettings, constraint: Box<dyn PathConstraint>| {
+        let mut state = StateStore::new(model.elements());
+        let start = vec![0.0; model.dofs().len()];
+        let mut stage = Stage::new(&model, conditions.clone(), &mut state, start).unwrap();
+        let mut driver = NewtonRaphson::with_constraint(settings, constraint);
+        let control = StepControl::new(0.5, 1.0);
+        control.run(&mut stage, &mut driver, &mut Silent)
+    };
+    let settings = NewtonSettings::default();
+    let far = run(settings, Box::new(FreeDisplacement::new(99_999)));
+    assert!(matches!(far, Err(SolverError::Setting { .. })), "{far:?}");
+    let short = run(settings, Box::new(Mode::new(vec![1.0]).unwrap()));
+    assert!(
+        matches!(short, Err(SolverError::Mismatch { what: "mode", .. })),
+        "{short:?}"
+    );
+    let blind = NewtonSettings {
+        operator: Operator::None,
+        ..settings
+    };
+    let blind = run(blind, Box::new(FreeDisplacement::new(0)));
+    assert!(
+        matches!(blind, Err(SolverError::Setting { .. })),
+        "{blind:?}"
+    );
+}
+
+#[test]
+fn a_motion_that_would_not_end_or_blow_up_is_refused() {
+    let good = ExplicitSettings::default();
+    assert!(Explicit::new(good).is_ok());
+    for (wrong, settings) in [
+        (
+            "periods",
+            ExplicitSettings {
+                periods: f64::NAN,
+                ..good
+            },
+        ),
+        (
+            "damping",
+            ExplicitSettings {
+                damping: -0.1,
+                ..good
+            },
+        ),
+        (
+            "time_step",
+            ExplicitSettings {
+                time_step: -1.0,
+                ..good
+            },
+        ),
+        (
+            "time_step",
+            ExplicitSettings {
+                time_step: 2.5,
+                ..good
+            },
+        ),
+        ("ramp", ExplicitSettings { ramp: 0.0, ..good }),
+    ] {
+        let refused = Explicit::new(settings).err();
+        assert!(
+            matches!(refused, Some(SolverError::Setting { what, .. }) if what == wrong),
+            "{wrong}: {refused:?}"
+        );
+    }
+}
