@@ -109,10 +109,14 @@ impl GridBuilder {
     ///
     /// # Errors
     ///
-    /// [`MeshError::NotFinite`] for a line that is not a number.
+    /// [`MeshError::NotFinite`] for a line that is not a number, [`MeshError::NoCell`] for a box of fewer than two lines in
+    /// some direction.
     pub fn finish(self) -> Result<Mesh, MeshError> {
         let mut mesh = Mesh::new(self.nodes)?;
         for (name, cells) in self.blocks {
+            if cells.is_empty() {
+                return Err(MeshError::NoCell(name));
+            }
             mesh.add_block(&name, CellKind::Hex20, cells)?;
         }
         Ok(mesh)

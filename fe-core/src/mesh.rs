@@ -90,6 +90,9 @@ pub enum MeshError {
     /// A name is used twice.
     #[error("the name {0} is used twice; give every block and node set its own")]
     DuplicateName(String),
+    /// A block of boxes has no cell.
+    #[error("block {0} has no cell: give at least two lines in each direction")]
+    NoCell(String),
     /// A coordinate is NaN or infinite.
     #[error("node {0} has a coordinate that is not finite")]
     NotFinite(NodeId),

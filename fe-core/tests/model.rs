@@ -66,6 +66,9 @@ fn boxes_of_one_name_form_one_block_and_lines_must_be_numbers() {
     let mut grid = GridBuilder::new();
     grid.add_box("beam", &[0.0, f64::NAN], &[0.0, 1.0], &[0.0, 1.0]);
     assert!(matches!(grid.finish(), Err(MeshError::NotFinite(_))));
+    let mut grid = GridBuilder::new();
+    grid.add_box("flat", &[0.0, 1.0], &[0.0], &[0.0, 1.0]);
+    assert_eq!(grid.finish(), Err(MeshError::NoCell("flat".into())));
 }
 
 #[test]
@@ -183,9 +186,9 @@ fn conditions_add_loads_and_refuse_what_is_not_there() {
 
 #[test]
 fn an_element_on_a_node_that_is_not_there_is_refused() {
-    let ends = [[0.0; 3], [10.0, 0.0, 0.0]];
-    let bar = Truss::new([0, 2], &ends, Arc::new(Damage(Flaw::None)), Flaw::None);
-    let mesh = Mesh::new(ends.to_vec()).unwrap();
+    let places = [[0.0; 3], [5.0, 0.0, 0.0], [10.0, 0.0, 0.0]];
+    let bar = Truss::new([0, 2], &places, Arc::new(Damage(Flaw::None)), Flaw::None);
+    let mesh = Mesh::new(places[..2].to_vec()).unwrap();
     assert_eq!(
         Model::new(mesh, vec![Box::new(bar)]).unwrap_err(),
         ModelError::NoSuchNode { node: 2, nodes: 2 }

@@ -341,6 +341,9 @@ impl FixedCrack {
     }
 
     fn envelopes(&self, band_width: f64) -> Result<Envelopes, MaterialError> {
+        if !(band_width.is_finite() && band_width > 0.0) {
+            return Err(out_of_range("band_width", band_width, "mm", "(0, inf)"));
+        }
         Ok(Envelopes {
             tension: Tension::new(&self.p, self.p.ft_mpa, band_width)?,
             compression: Compression::new(&self.p, band_width)?,

@@ -395,6 +395,16 @@ fn impossible_parameters_and_bands_are_refused() {
         let error = FixedCrack::new(p, None).unwrap_err();
         assert!(matches!(error, MaterialError::Parameter { .. }), "{error}");
     }
+    for band_width in [f64::NAN, 0.0, -1.0] {
+        let refused = law(0.2).admit(&PointContext::new(band_width));
+        assert!(matches!(
+            refused,
+            Err(MaterialError::Parameter {
+                parameter: "band_width",
+                ..
+            })
+        ));
+    }
     let limit = match law(0.2).admit(&PointContext::new(1e4)) {
         Err(MaterialError::BandTooWide { limit, .. }) => limit,
         other => panic!("{other:?}"),
