@@ -100,6 +100,35 @@ impl Capacity {
     }
 }
 
+/// Why a path whose steps all meet the criterion may not be the only one: jumps and unstable equilibria among its points
+/// up to the peak, or no fall behind it.
+fn branches(
+    path: &[PathPoint],
+    capacity: &Capacity,
+    (before, jumps): (&[PathPoint], usize),
+) -> Option<String> {
+    let steps = before.len();
+    let mut reasons = Vec::new();
+    if jumps > 0 {
+        reasons.push(format!(
+            "{jumps} of {steps} steps up to the peak are jumps, beyond which other branches may exist"
+        ));
+    }
+    if let Some(first) = before.iter().find(|p| p.unstable) {
+        let count = before.iter().filter(|p| p.unstable).count();
+        reasons.push(format!(
+            "{count} of {steps} steps up to the peak are unstable equilibria, the first at {:.0} % of the peak; other \
+             branches exist",
+            100.0 * first.load / before[steps - 1].load
+        ));
+    }
+    if reasons.is_empty() && capacity.peak + 1 == path.len() {
+        reasons
+            .push("the load is largest at the end of the path, a lower bound of the peak".into());
+    }
+    (!reasons.is_empty()).then(|| reasons.join("; "))
+}
+
 /// Largest share of kinetic energy and largest residual from [`APPROACH`] of the last load of a path on, once the start
 /// has died away; none if it is no motion.
 fn moving(path: &[PathPoint]) -> Option<(f64, f64)> {
@@ -268,22 +297,8 @@ impl Verdict {
                  {worst_flagged:.1e}"
             );
             (Trust::Limited, reason)
-        } else if jumps > 0 {
-            let reason = format!(
-                "{jumps} of {steps} steps up to the peak are jumps, beyond which other branches may exist"
-            );
+        } else if let Some(reason) = branches(path, capacity, (before, jumps)) {
             (Trust::Limited, reason)
-        } else if let Some(first) = before.iter().find(|p| p.unstable) {
-            let count = before.iter().filter(|p| p.unstable).count();
-            let reason = format!(
-                "{count} of {steps} steps up to the peak are unstable equilibria, the first at {:.0} % of \
-                 the peak; other branches exist",
-                100.0 * first.load / before[steps - 1].load
-            );
-            (Trust::Limited, reason)
-        } else if capacity.peak + 1 == path.len() {
-            let reason = "the load is largest at the end of the path, a lower bound of the peak";
-            (Trust::Limited, reason.to_owned())
         } else {
             let reason = format!(
                 "every step up to the peak meets the criterion; work-conjugate load within {:.2} %",

@@ -16,6 +16,18 @@ pub(super) fn report(beams: &[Stored], groups: &[Group], report: &Report) -> Str
     let accuracy = report.accuracy.as_ref();
     let accuracy = accuracy.map_or_else(|| "No beam has a test.".to_owned(), |a| format!("{a}."));
     let _ = writeln!(text, "\n{}\n", capital(&accuracy));
+    let open: Vec<String> = beams
+        .iter()
+        .filter(|b| !b.summary.failed())
+        .map(|b| format!("{} ({})", b.name, b.summary.stop_reason))
+        .collect();
+    if !open.is_empty() {
+        let open = open.join(", ");
+        let _ = writeln!(
+            text,
+            "No failure was reached, so the load is no peak and not compared with a test: {open}.\n"
+        );
+    }
     text += &settings(beams);
     if !report.problems.is_empty() {
         text += "\n## Problems\n\n";
@@ -59,7 +71,11 @@ fn peaks(beams: &[Stored]) -> String {
         let s = &beam.summary;
         vec![
             beam.name.clone(),
-            format!("{:.1}", s.peak_load_kn),
+            format!(
+                "{}{:.1}",
+                if s.failed() { "" } else { "> " },
+                s.peak_load_kn
+            ),
             format!("{:.2}", s.deflection_at_peak_mm),
             s.mode.clone(),
             s.trust.clone(),

@@ -11,6 +11,7 @@ use serde::Deserialize;
 
 use super::exists;
 use crate::results::events::EventKind;
+use crate::results::mode::FailureMode;
 use crate::results::sheets::{MAP, MapRow, read_map};
 
 /// The results of one beam.
@@ -60,9 +61,14 @@ pub(super) struct StoredWall {
 }
 
 impl StoredSummary {
-    /// Peak over the load of the test.
+    /// Whether the beam has failed: otherwise, as where the run was stopped, its largest load is a lower bound of the peak.
+    pub(super) fn failed(&self) -> bool {
+        self.mode != FailureMode::None.to_string()
+    }
+
+    /// Peak over the load of the test; none where there is no peak.
     pub(super) fn ratio(&self) -> Option<f64> {
-        let test = self.test_load_kn.filter(|t| *t > 0.0)?;
+        let test = self.test_load_kn.filter(|t| *t > 0.0 && self.failed())?;
         Some(self.peak_load_kn / test)
     }
 }

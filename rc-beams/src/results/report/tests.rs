@@ -45,6 +45,29 @@ fn read(root: &TempDir, file: &str) -> String {
     fs::read_to_string(root.path().join(file)).unwrap()
 }
 
+/// A run that was stopped on its way up has no peak: it is shown as what it is and not compared.
+#[test]
+fn a_run_that_was_stopped_is_not_compared_with_a_test() {
+    let root = results();
+    let summary = root.path().join("A-SO3-2").join("summary.json");
+    let stopped = fs::read_to_string(&summary).unwrap();
+    let stopped = stopped.replace("\"debonding\"", "\"none (no failure reached)\"");
+    fs::write(
+        &summary,
+        stopped.replace("the load fell", "stopped by the user"),
+    )
+    .unwrap();
+    let report = write(root.path()).unwrap();
+    assert_eq!(report.accuracy.unwrap().beams, 1);
+    let text = read(&root, "report.md");
+    for words in [
+        "| A-SO3-2 | > 220.0 | 2.00 | none (no failure reached) | high | 200.0 | - |",
+        "not compared with a test: A-SO3-2 (stopped by the user).",
+    ] {
+        assert!(text.contains(words), "{words} is missing in\n{text}");
+    }
+}
+
 /// Target: errors of 11/151 = 7.3 % and 10 %, mean 8.6 %.
 #[test]
 fn the_report_has_every_beam_the_mean_error_and_a_picture_per_group() {
@@ -73,6 +96,7 @@ fn the_report_has_every_beam_the_mean_error_and_a_picture_per_group() {
         assert!(text.contains(row), "{row} is missing in\n{text}");
     }
     assert!(!text.contains("## Events") && !text.contains("## Problems"));
+    assert!(!text.contains("No failure was reached"));
     let picture = read(&root, "report-A-SO3.svg");
     assert!(picture.contains("A-SO3-1") && picture.contains("test 200.0 kN"));
     let csv = read(&root, "report.csv");

@@ -169,10 +169,10 @@ impl fmt::Display for Bond<'_> {
         if let Some(zone) = &self.sheets.zone {
             write!(
                 f,
-                "; slip up to {:.3} mm, beyond s_f over {:.0} % of {}",
+                "; {} slips most widely, up to {:.3} mm and beyond s_f over {:.0} %",
+                zone.name,
                 zone.slip_max_mm,
-                100.0 * zone.debonded,
-                zone.name
+                100.0 * zone.debonded
             )?;
         }
         write!(

@@ -212,8 +212,8 @@ fn the_evidence_is_one_line_with_numbers() {
     assert_eq!(
         diagnosis.mode_evidence,
         "load falls by 21.0 %; sheet force in the right shear span 100.0 kN at the peak, 55.0 kN at 188 kN \
-         (-45 %); 48 % of its side debonded then, 4 % at the peak; slip up to 0.171 mm, beyond s_f over \
-         62 % of strip 9; sheets used to 40 %; perfect bond would carry 1.27 times the peak; no stirrups in \
+         (-45 %); 48 % of its side debonded then, 4 % at the peak; strip 9 slips most widely, up to 0.171 mm \
+         and beyond s_f over 62 %; sheets used to 40 %; perfect bond would carry 1.27 times the peak; no stirrups in \
          the span; 100 % of the crack growth is diagonal (most in the right shear span); bottom bars reach \
          0.60 fy by the peak at x = 1500 mm; 0.0 % of a web past its strength at the peak; crushing grows by \
          0.00 % of the concrete; 0 of 12 stirrups yield"
