@@ -13,6 +13,7 @@ use crc32fast::Hasher;
 use fe_solver::journal::Entry;
 use serde::{Deserialize, Serialize};
 
+use super::claim::CLAIM;
 use super::error::ResultsError;
 use super::folder::Folder;
 
@@ -220,13 +221,13 @@ impl Checkpoint {
         Ok(self.write_header()?)
     }
 
-    /// Removes the one of a folder, if there is one.
+    /// Removes the one of a folder, if there is one, and what claims the folder.
     ///
     /// # Errors
     ///
     /// [`ResultsError::Output`].
     pub fn remove(folder: &Folder) -> Result<(), ResultsError> {
-        [HEADER, STEPS]
+        [HEADER, STEPS, CLAIM]
             .iter()
             .try_for_each(|name| folder.remove(name))
     }

@@ -3,9 +3,11 @@
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use tempfile::{Builder, NamedTempFile};
 
+use super::claim::Claim;
 use super::error::ResultsError;
 use super::growing::Growing;
 use crate::output::{self, OutputError};
@@ -27,10 +29,11 @@ const NOT_STARTED_ANEW: [&str; 12] = [
     "fields.pvd",
 ];
 
-/// A folder known to be writable.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// A folder known to be writable, and claimed if a run writes into it.
+#[derive(Debug, Clone)]
 pub struct Folder {
     path: PathBuf,
+    _claim: Option<Arc<Claim>>,
     /// Whether the run in it is continued.
     resumed: bool,
 }
@@ -41,13 +44,9 @@ impl Folder {
     ///
     /// # Errors
     ///
-    /// [`ResultsError::Output`] when the folder cannot be made or written.
+    /// [`ResultsError::Output`] when the folder cannot be made or written, or another run writes into it.
     pub fn create(root: &Path, name: &str) -> Result<Self, ResultsError> {
-        let folder = Self {
-            path: root.join(name),
-            resumed: false,
-        };
-        output::prepare(&folder.path)?;
+        let folder = Self::open(&root.join(name))?.claimed()?;
         for file in NOT_STARTED_ANEW {
             folder.remove(file)?;
         }
@@ -70,7 +69,16 @@ impl Folder {
         output::prepare(path)?;
         Ok(Self {
             path: path.into(),
+            _claim: None,
             resumed: false,
+        })
+    }
+
+    fn claimed(self) -> Result<Self, ResultsError> {
+        let claim = Claim::on(&self.path).map_err(|e| self.error("", e))?;
+        Ok(Self {
+            _claim: Some(Arc::new(claim)),
+            ..self
         })
     }
 
@@ -78,11 +86,11 @@ impl Folder {
     ///
     /// # Errors
     ///
-    /// [`ResultsError::Output`] when it cannot be written.
+    /// [`ResultsError::Output`] when it cannot be written, or another run writes into it.
     pub fn resume(path: &Path) -> Result<Self, ResultsError> {
         Ok(Self {
             resumed: true,
-            ..Self::open(path)?
+            ..Self::open(path)?.claimed()?
         })
     }
 
@@ -208,7 +216,7 @@ mod tests {
                 .contains("disk full")
         );
         let files: Vec<_> = fs::read_dir(folder.path()).unwrap().collect();
-        assert_eq!(files.len(), 1);
+        assert_eq!(files.len(), 2, "the old file and the claim");
         assert_eq!(
             fs::read(folder.path().join("summary.json")).unwrap(),
             b"old"
@@ -224,7 +232,12 @@ mod tests {
                 .replace(name, |out| out.write_all(b"earlier"))
                 .unwrap();
         }
-        Folder::create(root.path(), "beam").unwrap();
+        let error = Folder::create(root.path(), "beam").unwrap_err();
+        let error = io::Error::from(error).to_string();
+        assert!(error.contains("another run"), "{error}");
+        assert!(folder.path().join("summary.json").exists());
+        drop(folder);
+        let folder = Folder::create(root.path(), "beam").unwrap();
         assert!(!folder.path().join("summary.json").exists());
         assert!(!folder.path().join("sheets.csv").exists());
         assert!(!folder.path().join("fields_0007.vtu").exists());

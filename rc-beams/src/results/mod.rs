@@ -6,6 +6,7 @@
 //! `summary.json`, each whole or absent. A [`report`] puts the folders of several beams side by side.
 
 pub mod checkpoint;
+mod claim;
 pub mod crack;
 pub mod curve;
 pub mod drawing;
