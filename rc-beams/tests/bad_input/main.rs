@@ -454,6 +454,46 @@ const COMMANDS: &[Arguments] = &[
         2,
         &["--law", "fixed-crack, reference, objective"],
     ),
+    (
+        &[
+            "run",
+            "A-SO3-1",
+            "--law",
+            "objective",
+            "--shear-floor",
+            "0.5",
+        ],
+        2,
+        &[
+            "--shear-floor has no effect",
+            "--law objective",
+            "--law fixed-crack",
+        ],
+    ),
+    (
+        &[
+            "run",
+            "A-SO3-1",
+            "--preset",
+            "characteristic",
+            "--aggregate-mm",
+            "10",
+        ],
+        2,
+        &["--aggregate-mm has no effect", "--shear-transfer interlock"],
+    ),
+    (
+        &[
+            "run",
+            "A-SO3-1",
+            "--preset",
+            "characteristic",
+            "--mesh",
+            "60x4",
+        ],
+        2,
+        &["--mesh 60x4x1", "--integration irons"],
+    ),
 ];
 
 #[test]
