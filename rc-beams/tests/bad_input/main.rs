@@ -268,9 +268,22 @@ const CASES: &[Case] = &[
     // Measuring points.
     (
         "load: TotalReactions",
-        "load: InnerShear(end_support: 2)",
-        "2",
-        &["measuring.load.end_support: number 2 of 2; allowed: 0 to 1"],
+        "load: InnerShear(end_support: 0)",
+        "InnerShear",
+        &[
+            "measuring.load: shear at an inner support of 2 supports",
+            "allowed: 3 or more",
+        ],
+    ),
+    // Bars that leave no room for concrete.
+    (
+        "name: \"bottom\",\n            diameter_mm: 32,\n            area_mm2: 804.25,\n            count_in_half: 1",
+        "name: \"bottom\",\n            diameter_mm: 32,\n            area_mm2: 804.25,\n            count_in_half: 100",
+        "100",
+        &[
+            "bars[0].count_in_half: all bars have",
+            "allowed: 4575 mm2, a fifth",
+        ],
     ),
     (
         "y_mm: 0,",

@@ -13,6 +13,10 @@ use crate::spec::reinforcement::{Bar, BarBond, Steel, Stirrups, Zone};
 /// Smallest and largest cross-section of a bar over the circle of its diameter.
 const AREA_RATIO: RangeInclusive<f64> = 0.8..=1.1;
 
+/// Largest cross-section of the bars over that of the beam; codes allow 0.08 where bars overlap (EN 1992-1-1, 9.2.1.1
+/// and 9.5.2).
+const LARGEST_RATIO: f64 = 0.2;
+
 const UP: &str = "y is measured from the soffit";
 const ACROSS: &str = "z is measured from the middle of the width";
 
@@ -24,12 +28,32 @@ impl Checks<'_> {
             let named = specimen.bars[..i].iter().any(|b| b.name == bar.name);
             self.named_once(&format!("bars[{i}]"), "bars", &bar.name, named);
         }
+        self.steel_share();
         if let Some(stirrups) = &specimen.stirrups {
             self.steel("stirrups", &stirrups.steel);
             self.area("stirrups", stirrups.diameter_mm, stirrups.area_mm2);
             self.bond("stirrups", &stirrups.bond);
             self.shape(stirrups);
             self.zones(stirrups);
+        }
+    }
+
+    /// Bars leave room for concrete.
+    fn steel_share(&mut self) {
+        let of = |bar: &Bar| f64::from(bar.count_in_half.get()) * bar.area_mm2.get();
+        let bars = &self.specimen.bars;
+        let sum: f64 = bars.iter().map(of).sum();
+        let most = LARGEST_RATIO * self.height() * self.half_width();
+        let largest = bars
+            .iter()
+            .enumerate()
+            .max_by(|a, b| of(a.1).total_cmp(&of(b.1)));
+        if let Some((i, _)) = largest.filter(|_| sum > most) {
+            self.report(
+                format!("bars[{i}].count_in_half"),
+                format!("all bars have {sum:.0} mm2 in half of the width; allowed: {most:.0} mm2, a fifth of the concrete"),
+                "count the bars in half of the width, and give the cross-section of one",
+            );
         }
     }
 

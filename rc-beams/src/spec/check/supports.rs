@@ -139,14 +139,23 @@ impl Checks<'_> {
         self.within("measuring.test_span.x_to_mm", end, 0.0..=length, ALONG);
         self.ascending("measuring.test_span.x_to_mm", from, to);
         let supports = self.specimen.supports.len();
-        if let LoadMeasure::InnerShear { end_support } = measuring.load
-            && end_support >= supports
-        {
+        let LoadMeasure::InnerShear { end_support } = measuring.load else {
+            return;
+        };
+        if supports < 3 {
+            self.report(
+                "measuring.load",
+                format!(
+                    "shear at an inner support of {supports} supports; allowed: 3 or more supports"
+                ),
+                "measure TotalReactions",
+            );
+        } else if end_support != 0 && end_support != supports - 1 {
             self.report(
                 "measuring.load.end_support",
                 format!(
-                    "number {end_support} of {supports}; allowed: 0 to {}",
-                    supports.max(1) - 1
+                    "number {end_support} of {supports}; allowed: 0 or {}, the ends",
+                    supports - 1
                 ),
                 "count from 0 at the left",
             );
