@@ -108,25 +108,25 @@ fn branches(
     (before, jumps): (&[PathPoint], usize),
 ) -> Option<String> {
     let steps = before.len();
-    let mut reasons = Vec::new();
-    if jumps > 0 {
-        reasons.push(format!(
+    let count = before.iter().filter(|p| p.unstable).count();
+    let first = before.iter().find(|p| p.unstable).map(|first| {
+        let share = 100.0 * first.load / before[steps - 1].load;
+        format!("unstable equilibria, the first at {share:.0} % of the peak; other branches exist")
+    });
+    match (jumps, first) {
+        (0, Some(first)) => Some(format!(
+            "{count} of {steps} steps up to the peak are {first}"
+        )),
+        (_, Some(first)) => Some(format!(
+            "{jumps} of {steps} steps up to the peak are jumps and {count} are {first}"
+        )),
+        (0, None) => (capacity.peak + 1 == path.len()).then(|| {
+            "the load is largest at the end of the path, a lower bound of the peak".into()
+        }),
+        (_, None) => Some(format!(
             "{jumps} of {steps} steps up to the peak are jumps, beyond which other branches may exist"
-        ));
+        )),
     }
-    if let Some(first) = before.iter().find(|p| p.unstable) {
-        let count = before.iter().filter(|p| p.unstable).count();
-        reasons.push(format!(
-            "{count} of {steps} steps up to the peak are unstable equilibria, the first at {:.0} % of the peak; other \
-             branches exist",
-            100.0 * first.load / before[steps - 1].load
-        ));
-    }
-    if reasons.is_empty() && capacity.peak + 1 == path.len() {
-        reasons
-            .push("the load is largest at the end of the path, a lower bound of the peak".into());
-    }
-    (!reasons.is_empty()).then(|| reasons.join("; "))
 }
 
 /// Largest share of kinetic energy and largest residual from [`APPROACH`] of the last load of a path on, once the start
@@ -452,6 +452,10 @@ mod tests {
         p[27].held = true;
         p[27].work_conjugate_load = -1400.0;
         assert_eq!(trust(&p), Trust::Limited);
+        p[2].unstable = true;
+        let reason = Verdict::of(&p, &Capacity::of(&p).unwrap()).reason;
+        assert!(reason.contains("are jumps and 1 are unstable"), "{reason}");
+        p[2].unstable = false;
         p[28].flagged = true;
         let verdict = Verdict::of(&p, &Capacity::of(&p).unwrap());
         assert_eq!((verdict.trust, verdict.jumps), (Trust::Limited, 1));

@@ -46,11 +46,11 @@ impl Picture for Curve<'_> {
         draw_heading(area, self.specimen, self.title, &wrap(&trust, 118))?;
         let (x_end, y_end) = self.extent();
         let mut chart = axes(area, (units(86.0), units(28.0)), (x_end, y_end))?;
+        // A load-deflection curve seldom goes to the lower right; where it does, it crosses the legend.
+        draw_legend(area, chart.backend_coord(&(x_end, 0.0)), self.path)?;
         self.draw_test(&mut chart)?;
         self.draw_path(&mut chart)?;
-        self.draw_marks(&chart, area)?;
-        // A load-deflection curve seldom goes to the lower right.
-        draw_legend(area, chart.backend_coord(&(x_end, 0.0)), self.path)
+        self.draw_marks(&chart, area)
     }
 }
 

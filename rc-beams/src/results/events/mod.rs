@@ -122,7 +122,9 @@ impl EventKind {
             Self::StirrupYield | Self::BarYield => format!("stress {amount:.0} MPa"),
             Self::InterfaceStrength | Self::Debonding => format!("slip {amount:.3} mm"),
             Self::SheetRupture => format!("fibre stress {amount:.0} MPa"),
-            Self::Crushing | Self::Crushed => format!("crushing {amount:.3}"),
+            // It begins at nothing.
+            Self::Crushing => String::from("crushing begins"),
+            Self::Crushed => format!("crushing {amount:.3}"),
         }
     }
 }
