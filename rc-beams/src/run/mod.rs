@@ -89,7 +89,7 @@ fn run(
     let beam = build(specimen, &settings)?;
     let hash = input_hash(specimen, options);
     let (folder, checkpoint) = match resume::begin(&specimen.name, &hash, options)? {
-        Beginning::From(folder, checkpoint) => (folder, checkpoint),
+        Beginning::From(folder, checkpoint) => (folder, *checkpoint),
         Beginning::Done => {
             board.print_result(&format!("{:<8}  done before", specimen.name));
             return Ok(Exit::Done);

@@ -13,7 +13,7 @@ use crate::results::folder::Folder;
 /// Where a run begins.
 pub(super) enum Beginning {
     /// With these records, if any.
-    From(Folder, Checkpoint),
+    From(Folder, Box<Checkpoint>),
     /// It has ended before.
     Done,
 }
@@ -25,7 +25,7 @@ fn earlier(folder: &Path, input_hash: &str) -> Result<Option<Beginning>, RunErro
     if Checkpoint::exists(folder) {
         let folder = Folder::resume(folder)?;
         let checkpoint = Checkpoint::read(&folder, input_hash)?;
-        return Ok(Some(Beginning::From(folder, checkpoint)));
+        return Ok(Some(Beginning::From(folder, Box::new(checkpoint))));
     }
     let path = folder.join("summary.json");
     let Ok(text) = fs::read(&path) else {
@@ -60,5 +60,5 @@ pub(super) fn begin(
     }
     let folder = Folder::create(&options.output, name)?;
     let checkpoint = Checkpoint::start(&folder, input_hash)?;
-    Ok(Beginning::From(folder, checkpoint))
+    Ok(Beginning::From(folder, Box::new(checkpoint)))
 }
