@@ -53,6 +53,8 @@ struct Seen {
 pub const RULE: f64 = 0.02;
 /// Share of the turnover by which it may be.
 pub const ROUNDING: f64 = 1e-6;
+/// Energy (N mm) that it may be at any rate, as in a body moved without strain.
+pub const LEAST: f64 = 1e-12;
 
 /// Energies (N mm) of a whole model from one state to the next.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -72,10 +74,10 @@ impl Change {
     }
 
     /// Whether energy has been created: a negative dissipation of more than what the trapezoidal rule may err by, the share
-    /// [`RULE`] of what has been done and stored, and rounding, the share [`ROUNDING`] of the turnover.
+    /// [`RULE`] of what has been done and stored, and rounding, the share [`ROUNDING`] of the turnover and [`LEAST`].
     pub fn creates_energy(&self) -> bool {
         let size = self.work.abs() + self.stored.abs();
-        self.dissipated() < -RULE * size - ROUNDING * self.turnover
+        self.dissipated() < -RULE * size - ROUNDING * self.turnover - LEAST
     }
 }
 

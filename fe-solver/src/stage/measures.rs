@@ -15,12 +15,16 @@ use crate::error::SolverError;
 /// ones: a body that has come off carries none, and no residual is small against them.
 pub const LEAST_SCALE: f64 = 1e-3;
 
+/// Force (N) against which a residual is measured where all others are less: a body moved without strain has reactions of
+/// rounding, and no residual is small against them.
+pub const LEAST_FORCE: f64 = 1e-6;
+
 /// Size of a residual.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Residual {
     /// |f_ext - f_int| on the free equations over the norm of the reactions or that of the forces applied, whichever is more
-    /// (2-norms), which counts as [`LEAST_SCALE`] of the largest reactions of all accepted steps where it is less, and as
-    /// 1 N where there has been none. Infinite if a force is not a number.
+    /// (2-norms), which counts as [`LEAST_SCALE`] of the largest reactions of all accepted steps or [`LEAST_FORCE`] where it
+    /// is less, and as 1 N where there has been none. Infinite if a force is not a number.
     pub relative: f64,
     /// Largest component (N).
     pub largest: f64,
@@ -47,7 +51,11 @@ impl Stage<'_> {
         let scale = reactions
             .max(applied)
             .max(LEAST_SCALE * self.largest_reactions);
-        let scale = if scale > 0.0 { scale } else { 1.0 };
+        let scale = if scale > 0.0 {
+            scale.max(LEAST_FORCE)
+        } else {
+            1.0
+        };
         let relative = if sum == 0.0 { 0.0 } else { sum.sqrt() / scale };
         let finite = relative.is_finite() && reactions.is_finite();
         Residual {

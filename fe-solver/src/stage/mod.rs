@@ -17,7 +17,7 @@ use crate::critical::Signs;
 use crate::error::SolverError;
 use crate::linear::{DirectSolver, Inertia, LinearError, LinearSolver};
 
-pub use measures::{LEAST_SCALE, Residual};
+pub use measures::{LEAST_FORCE, LEAST_SCALE, Residual};
 
 /// Deterministic counts of the work done.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
