@@ -85,21 +85,15 @@ impl StepControl {
     }
 
     fn check(&self) -> Result<(), SolverError> {
-        if !(self.cut > 0.0 && self.cut < 1.0) {
-            return Err(SolverError::Setting {
-                what: "cut of a failed step",
-                value: self.cut,
-                allowed: "(0, 1)",
-            });
-        }
+        let fits = self.cut > 0.0 && self.cut < 1.0;
+        SolverError::setting(("cut of a failed step", self.cut), "(0, 1)", fits)?;
         let share = self.longest_share;
-        if !(share.is_finite() && share >= 0.0) {
-            return Err(SolverError::Setting {
-                what: "longest step over the load factor",
-                value: share,
-                allowed: "[0, inf)",
-            });
-        }
+        let fits = share.is_finite() && share >= 0.0;
+        SolverError::setting(
+            ("longest step over the load factor", share),
+            "[0, inf)",
+            fits,
+        )?;
         for (what, value) in [
             ("first step", self.initial),
             ("longest step", self.longest),
@@ -109,13 +103,7 @@ impl StepControl {
             ("growth of a step", self.growth),
             ("shrinkage of a step", self.shrinkage),
         ] {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(SolverError::Setting {
-                    what,
-                    value,
-                    allowed: "(0, inf)",
-                });
-            }
+            SolverError::positive(what, value)?;
         }
         Ok(())
     }

@@ -105,6 +105,43 @@ pub enum SolverError {
 }
 
 impl SolverError {
+    /// Refuses a setting that does not fit.
+    pub(crate) const fn setting(
+        (what, value): (&'static str, f64),
+        allowed: &'static str,
+        fits: bool,
+    ) -> Result<(), Self> {
+        if fits {
+            return Ok(());
+        }
+        Err(Self::Setting {
+            what,
+            value,
+            allowed,
+        })
+    }
+
+    /// Refuses a setting that is no positive number.
+    pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), Self> {
+        Self::setting((what, value), "(0, inf)", value.is_finite() && value > 0.0)
+    }
+
+    /// Refuses what is not of the length that the model asks for.
+    pub(crate) const fn length(
+        what: &'static str,
+        found: usize,
+        expected: usize,
+    ) -> Result<(), Self> {
+        if found == expected {
+            return Ok(());
+        }
+        Err(Self::Mismatch {
+            what,
+            found,
+            expected,
+        })
+    }
+
     /// Whether a shorter step may cure it.
     pub fn is_recoverable(&self) -> bool {
         match self {

@@ -79,32 +79,18 @@ impl Explicit {
     /// [`SolverError::Setting`] for periods or a ramp that are no positive numbers, a damping outside [0, 1] or a time step
     /// outside (0, 2).
     pub fn new(settings: ExplicitSettings) -> Result<Self, SolverError> {
-        let s = settings;
-        let positive = |x: f64| x.is_finite() && x > 0.0;
-        for (what, value, allowed, fits) in [
-            ("periods", s.periods, "(0, inf)", positive(s.periods)),
-            (
-                "damping",
-                s.damping,
-                "[0, 1]",
-                (0.0..=1.0).contains(&s.damping),
-            ),
-            (
-                "time_step",
-                s.time_step,
-                "(0, 2)",
-                positive(s.time_step) && s.time_step < 2.0,
-            ),
-            ("ramp", s.ramp, "(0, inf)", positive(s.ramp)),
-        ] {
-            if !fits {
-                return Err(SolverError::Setting {
-                    what,
-                    value,
-                    allowed,
-                });
-            }
-        }
+        let ExplicitSettings {
+            periods,
+            damping,
+            time_step,
+            ramp,
+        } = settings;
+        SolverError::positive("periods", periods)?;
+        let fits = (0.0..=1.0).contains(&damping);
+        SolverError::setting(("damping", damping), "[0, 1]", fits)?;
+        let fits = time_step > 0.0 && time_step < 2.0;
+        SolverError::setting(("time_step", time_step), "(0, 2)", fits)?;
+        SolverError::positive("ramp", ramp)?;
         Ok(Self {
             settings,
             motion: Motion::default(),

@@ -38,13 +38,7 @@ impl Viscous {
     ///
     /// [`SolverError::Setting`] for a viscosity that is no positive number.
     pub fn new(viscosity: f64, settings: NewtonSettings) -> Result<Self, SolverError> {
-        if !(viscosity.is_finite() && viscosity > 0.0) {
-            return Err(SolverError::Setting {
-                what: "viscosity",
-                value: viscosity,
-                allowed: "(0, inf)",
-            });
-        }
+        SolverError::positive("viscosity", viscosity)?;
         Ok(Self {
             viscosity,
             newton: NewtonRaphson::new(settings),

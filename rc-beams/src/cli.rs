@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use clap::{Parser, Subcommand};
 use miette::{MietteHandlerOpts, Report, miette};
 
-use crate::conflicts::conflict;
 use crate::exit::Exit;
 use crate::input::{InputError, load, load_all};
 use crate::options::RunOptions;
@@ -118,9 +117,6 @@ fn check(files: &[String]) -> Result<Exit, Shown> {
 }
 
 fn run_beams(beams: &[String], options: &RunOptions) -> Result<Exit, Shown> {
-    if let Some(conflict) = conflict(options) {
-        return Err(show(Exit::Usage, miette!("{conflict}")));
-    }
     let specimens = load_all(beams).map_err(|errors| {
         let shown = show_all(errors);
         eprintln!("nothing was run");

@@ -3,7 +3,6 @@
 pub mod analysis;
 pub mod build;
 pub mod cli;
-pub mod conflicts;
 pub mod exit;
 pub mod input;
 pub mod list;

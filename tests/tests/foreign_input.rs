@@ -1,11 +1,10 @@
 //! Protects users of the solver from input that does not fit: one error that names it, no panic and no endless run.
 
 use fe_core::dof::Dof;
-use fe_core::grid::GridBuilder;
-use fe_core::material::Operator;
+use fe_core::material::{Material, Operator};
 use fe_core::model::{Conditions, Model};
 use fe_core::state::StateStore;
-use fe_elements::{BandWidth, Hex20, HexRule};
+use fe_elements::HexRule;
 use fe_materials::Elastic;
 use fe_solver::control::StepControl;
 use fe_solver::error::SolverError;
@@ -14,39 +13,27 @@ use fe_solver::newton::{NewtonRaphson, NewtonSettings};
 use fe_solver::path::{FreeDisplacement, Mode, PathConstraint};
 use fe_solver::recorder::Silent;
 use fe_solver::stage::Stage;
+use fe_tests::conditions::hold;
+use fe_tests::mesh::{boxes, hexahedra, lines, nodes_where};
 use std::sync::Arc;
 
 /// A row of cubes, held on the left and pulled on the right.
 fn row(cubes: usize) -> (Model, Conditions) {
-    let x: Vec<f64> = (0..=cubes).map(|i| i as f64).collect();
-    let mut grid = GridBuilder::new();
-    grid.add_box("row", &x, &[0.0, 1.0], &[0.0, 1.0]);
-    let mut mesh = grid.finish().unwrap();
-    mesh.add_set("left", |x| x[0] == 0.0).unwrap();
-    let law = Arc::new(Elastic::new(100.0, 0.0).unwrap());
-    let mut elements: Vec<Box<dyn fe_core::element::Element>> = Vec::new();
-    for cell in mesh.blocks()[0].cells() {
-        let nodes = std::array::from_fn(|a| cell[a]);
-        let coords = nodes.map(|n: usize| mesh.nodes()[n]);
-        let hex = Hex20::new(
-            nodes,
-            &coords,
-            HexRule::Full,
-            law.clone(),
-            BandWidth::CubeRoot,
-        );
-        elements.push(Box::new(hex.unwrap()));
-    }
+    let (end, side) = (cubes as f64, [0.0, 1.0]);
+    let mesh = boxes(&lines(0.0, end, cubes), &side, &side).unwrap();
+    let law: Arc<dyn Material<_>> = Arc::new(Elastic::new(100.0, 0.0).unwrap());
+    let elements = hexahedra(&mesh, HexRule::Full, &law).unwrap();
     let model = Model::new(mesh, elements).unwrap();
     let mut conditions = Conditions::new(&model);
-    for dof in Dof::DISPLACEMENTS {
-        conditions.fix_set(&model, "left", dof).unwrap();
+    hold(&model, &mut conditions, &Dof::DISPLACEMENTS, |x| {
+        x[0] == 0.0
+    })
+    .unwrap();
+    for node in nodes_where(model.mesh(), |x| x == [end, 0.0, 0.0]) {
+        conditions
+            .add_reference(&model, node, Dof::Ux, 1.0)
+            .unwrap();
     }
-    let end = (0..model.mesh().nodes().len())
-        .find(|&n| model.mesh().nodes()[n] == [cubes as f64, 0.0, 0.0]);
-    conditions
-        .add_reference(&model, end.unwrap(), Dof::Ux, 1.0)
-        .unwrap();
     (model, conditions)
 }
 

@@ -1,10 +1,10 @@
 //! Protects bodies that are moved without strain: rounding is no residual and no energy.
 
 use fe_core::dof::Dof;
-use fe_core::grid::GridBuilder;
+use fe_core::material::Material;
 use fe_core::model::{Conditions, Model};
 use fe_core::state::StateStore;
-use fe_elements::{BandWidth, Hex20, HexRule};
+use fe_elements::HexRule;
 use fe_materials::Elastic;
 use fe_solver::control::StepControl;
 use fe_solver::driver::Driver;
@@ -12,6 +12,7 @@ use fe_solver::newton::{NewtonRaphson, NewtonSettings};
 use fe_solver::recorder::Silent;
 use fe_solver::secant::SecantAnderson;
 use fe_solver::stage::Stage;
+use fe_tests::mesh::{boxes, hexahedra, nodes_where};
 use std::sync::Arc;
 
 /// A block of two hexahedra whose ends, or all of whose nodes, go 1 mm along: every displacement is 1 mm.
@@ -24,23 +25,13 @@ fn a_block_is_moved_as_a_whole() {
             Box::new(SecantAnderson::default()),
         ];
         for mut driver in drivers {
-            let mut grid = GridBuilder::new();
-            grid.add_box("block", &lines, &[0.0, 70.0], &[0.0, 90.0]);
-            let mut mesh = grid.finish().unwrap();
-            mesh.add_set("moved", |x| all || x[0] == 0.0 || x[0] == 230.0)
-                .unwrap();
-            let law = Arc::new(Elastic::new(30e3, 0.2).unwrap());
-            let mut elements: Vec<Box<dyn fe_core::element::Element>> = Vec::new();
-            for cell in mesh.blocks()[0].cells() {
-                let nodes = std::array::from_fn(|a| cell[a]);
-                let coords = nodes.map(|n: usize| mesh.nodes()[n]);
-                let rule = HexRule::Full;
-                let hex = Hex20::new(nodes, &coords, rule, law.clone(), BandWidth::CubeRoot);
-                elements.push(Box::new(hex.unwrap()));
-            }
+            let mesh = boxes(&lines, &[0.0, 70.0], &[0.0, 90.0]).unwrap();
+            let moved = nodes_where(&mesh, |x| all || x[0] == 0.0 || x[0] == 230.0);
+            let law: Arc<dyn Material<_>> = Arc::new(Elastic::new(30e3, 0.2).unwrap());
+            let elements = hexahedra(&mesh, HexRule::Full, &law).unwrap();
             let model = Model::new(mesh, elements).unwrap();
             let mut conditions = Conditions::new(&model);
-            for &node in model.mesh().set("moved") {
+            for node in moved {
                 for (dof, rate) in [(Dof::Ux, 1.0), (Dof::Uy, 0.0), (Dof::Uz, 0.0)] {
                     conditions.prescribe(&model, node, dof, rate).unwrap();
                 }

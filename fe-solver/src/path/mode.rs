@@ -34,14 +34,8 @@ impl Mode {
 
 impl PathConstraint for Mode {
     fn begin(&mut self, stage: &Stage<'_>, length: f64) -> Result<(), SolverError> {
-        let (found, expected) = (self.0.gradient.len(), stage.assembler().free().len());
-        if found != expected {
-            return Err(SolverError::Mismatch {
-                what: "mode",
-                found,
-                expected,
-            });
-        }
+        let equations = stage.assembler().free().len();
+        SolverError::length("mode", self.0.gradient.len(), equations)?;
         self.0.length = length;
         Ok(())
     }

@@ -96,19 +96,10 @@ impl<'m> Stage<'m> {
     ) -> Result<Self, SolverError> {
         let dofs = model.dofs().len();
         let variables = model.elements().iter().map(|e| e.state_len()).sum();
-        for (what, found, expected) in [
-            ("displacement", start.len(), dofs),
-            ("conditions", conditions.reference().len(), dofs),
-            ("history variables", state.all_committed().len(), variables),
-        ] {
-            if found != expected {
-                return Err(SolverError::Mismatch {
-                    what,
-                    found,
-                    expected,
-                });
-            }
-        }
+        let history = state.all_committed().len();
+        SolverError::length("displacement", start.len(), dofs)?;
+        SolverError::length("conditions", conditions.reference().len(), dofs)?;
+        SolverError::length("history variables", history, variables)?;
         let assembler = Assembler::new(model, &conditions);
         let mut linear = DirectSolver::default();
         linear

@@ -12,6 +12,9 @@ use crate::results::error::ResultsError;
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 #[non_exhaustive]
 pub enum RunError {
+    /// Options do not fit together.
+    #[error("{0}")]
+    Options(String),
     /// A model cannot be built.
     #[error("{specimen}: {reason}")]
     Build {
@@ -48,6 +51,7 @@ impl RunError {
     /// How the program ends because of it.
     pub fn exit(&self) -> Exit {
         match self {
+            Self::Options(_) => Exit::Usage,
             Self::Build { reason, .. } => match **reason {
                 BuildError::TooFewElements { .. } => Exit::Usage,
                 _ => Exit::BadInput,

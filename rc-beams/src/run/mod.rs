@@ -1,6 +1,7 @@
 //! Runs specimens: model, analysis, files and the line on the terminal.
 
 mod again;
+mod conflicts;
 mod error;
 mod evidence;
 mod pictures;
@@ -50,7 +51,11 @@ pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, Run
     let interrupt = Interrupt::install()?;
     let mut queue = Vec::new();
     for specimen in specimens {
-        let beam = build(specimen, &settings(options, specimen))?;
+        let settings = settings(options, specimen);
+        if let Some(conflict) = conflicts::conflict(options, &settings) {
+            return Err(RunError::Options(conflict));
+        }
+        let beam = build(specimen, &settings)?;
         queue.push((beam.model.dofs().len(), specimen));
     }
     output::prepare(&options.output).map_err(ResultsError::from)?;

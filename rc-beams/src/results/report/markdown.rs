@@ -16,18 +16,7 @@ pub(super) fn report(beams: &[Stored], groups: &[Group], report: &Report) -> Str
     let accuracy = report.accuracy.as_ref();
     let accuracy = accuracy.map_or_else(|| "No beam has a test.".to_owned(), |a| format!("{a}."));
     let _ = writeln!(text, "\n{}\n", capital(&accuracy));
-    let open: Vec<String> = beams
-        .iter()
-        .filter(|b| !b.summary.failed())
-        .map(|b| format!("{} ({})", b.name, b.summary.stop_reason))
-        .collect();
-    if !open.is_empty() {
-        let open = open.join(", ");
-        let _ = writeln!(
-            text,
-            "No failure was reached, so the load is no peak and not compared with a test: {open}.\n"
-        );
-    }
+    text += &without_failure(beams);
     text += &settings(beams);
     if !report.problems.is_empty() {
         text += "\n## Problems\n\n";
@@ -86,6 +75,21 @@ fn peaks(beams: &[Stored]) -> String {
         ]
     });
     table(&header, rows)
+}
+
+/// Beams whose load is a lower bound of the peak.
+fn without_failure(beams: &[Stored]) -> String {
+    let open = beams.iter().filter(|b| !b.summary.failed());
+    let open: Vec<String> = open
+        .map(|b| format!("{} ({})", b.name, b.summary.stop_reason))
+        .collect();
+    if open.is_empty() {
+        return String::new();
+    }
+    format!(
+        "No failure was reached, so the load is no peak and not compared with a test: {}.\n\n",
+        open.join(", ")
+    )
 }
 
 /// Beams by the settings they were run with.

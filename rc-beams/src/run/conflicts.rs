@@ -1,0 +1,47 @@
+//! Options that contradict each other, or that others leave without effect.
+
+use fe_elements::HexRule;
+use fe_materials::fixed_crack::ShearTransfer;
+
+use crate::build::ModelSettings;
+use crate::options::{Cracks, Law, RunOptions, name};
+
+/// What is wrong with the options that have led to `settings`, and the remedy; nothing where they fit.
+pub(super) fn conflict(options: &RunOptions, settings: &ModelSettings) -> Option<String> {
+    without_effect(options, settings).or_else(|| too_few_points(settings))
+}
+
+/// Ingredients of a law that is not taken.
+fn without_effect(options: &RunOptions, settings: &ModelSettings) -> Option<String> {
+    if settings.law != Law::FixedCrack {
+        let (flag, law) = (given(&options.cracks)?, name(&settings.law));
+        return Some(format!(
+            "{flag} has no effect with --law {law}: leave it out, or take --law fixed-crack"
+        ));
+    }
+    let idle =
+        options.cracks.aggregate_mm.is_some() && settings.shear_transfer == ShearTransfer::Damage;
+    idle.then(|| {
+        "--aggregate-mm has no effect without interlock: leave it out, or take --shear-transfer \
+         interlock"
+            .into()
+    })
+}
+
+/// An ingredient of the fixed-crack law that is given: flags are named as their fields are.
+fn given(cracks: &Cracks) -> Option<String> {
+    let fields = serde_json::to_value(cracks).ok()?;
+    let (field, _) = fields.as_object()?.iter().find(|(_, v)| !v.is_null())?;
+    Some(format!("--{}", field.replace('_', "-")))
+}
+
+/// Eight points are too few for elements that are uniform across the width.
+fn too_few_points(settings: &ModelSettings) -> Option<String> {
+    let mesh = settings.mesh;
+    (mesh.nz.is_none() && settings.integration == HexRule::Reduced).then(|| {
+        format!(
+            "--mesh {mesh} is uniform across the width, for which reduced integration (--integration reduced, or \
+             --preset characteristic without another) has too few points: give --mesh {mesh}x1, or --integration irons"
+        )
+    })
+}
