@@ -57,6 +57,8 @@ pub struct LinearStats {
     pub nnz_factor: usize,
     /// Multiplications and additions of a factorisation L L^T that stores no zeros.
     pub factor_flops: f64,
+    /// Matrices that were factorised, whichever ways were tried.
+    pub factorised: usize,
     /// Factorisations L L^T.
     pub cholesky: usize,
     /// Factorisations L B L^T.
@@ -89,8 +91,8 @@ pub trait LinearSolver {
     /// [`LinearError::Singular`] naming an equation that takes part in a zero-energy mode.
     fn factorize(&mut self, values: &MatrixValues) -> Result<Inertia, LinearError>;
 
-    /// Makes `values` the matrix of the next solutions and factorises them only if that is cheaper: if the present factor
-    /// is L L^T of another matrix, solutions are found by conjugate gradients with that factor, to a relative residual of
+    /// Makes `values` the matrix of the next solutions and factorises them only if that is cheaper: not if the present factor
+    /// is theirs; if it is L L^T of another matrix, solutions are found by conjugate gradients with that factor, to a relative residual of
     /// 1e-8, as long as all their iterations together cost less than a factorisation, by counted operations. Where
     /// they do not suffice, or the matrix proves not to be positive definite, it is factorised then. Meshes on which less than
     /// eight iterations would pay are factorised at once. Returns the signs of the pivots, if it was factorised.
@@ -132,8 +134,8 @@ pub struct DirectSolver {
     analysis: Option<Analysis>,
     factor: Option<Factor>,
     values: MatrixValues,
-    /// Whether there is a factor: that of `values`, or of an earlier matrix while that of `values` is put off.
-    current: bool,
+    /// The signs of the factor, if there is one: that of `values`, or of an earlier matrix while that of `values` is put off.
+    current: Option<Inertia>,
     /// Iterations that still pay while the factorisation of `values` is put off.
     put_off: Option<usize>,
     /// The last symmetric matrix was indefinite: start with L B L^T.
@@ -151,6 +153,22 @@ impl DirectSolver {
     /// Whether the factorisation of the last [renewed](LinearSolver::renew) matrix is put off.
     pub const fn is_put_off(&self) -> bool {
         self.put_off.is_some()
+    }
+
+    /// The signs of the factor at hand, if it is that of `values`.
+    fn known(&self, values: &MatrixValues) -> Option<Inertia> {
+        let factorised = self.put_off.is_none() && self.values == *values;
+        self.current.filter(|_| factorised)
+    }
+
+    /// The signs of the pivots of `values`, factorised unless the factor at hand is theirs.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`LinearSolver::factorize`].
+    pub fn inertia(&mut self, values: &MatrixValues) -> Result<Inertia, LinearError> {
+        self.known(values)
+            .map_or_else(|| self.factorize(values), Ok)
     }
 
     /// Solves by conjugate gradients within the iterations that still pay. Returns whether they sufficed.
@@ -176,7 +194,7 @@ impl DirectSolver {
 
 impl LinearSolver for DirectSolver {
     fn analyze(&mut self, pattern: &Sparsity) -> Result<(), LinearError> {
-        (self.analysis, self.factor, self.current) = (None, None, false);
+        (self.analysis, self.factor, self.current) = (None, None, None);
         self.put_off = None;
         let graph = Graph::new(pattern);
         let (ordering, tree) = order::choose(&graph)?;
@@ -198,11 +216,12 @@ impl LinearSolver for DirectSolver {
     }
 
     fn factorize(&mut self, values: &MatrixValues) -> Result<Inertia, LinearError> {
-        (self.current, self.put_off) = (false, None);
+        (self.current, self.put_off) = (None, None);
         let (Some(analysis), Some(factor)) = (&self.analysis, &mut self.factor) else {
             return Err(LinearError::NotAnalysed);
         };
         self.values.clone_from(values);
+        self.stats.factorised += 1;
         let Analysis { pattern, fronts } = analysis;
         let diagonal = &pattern.col_ptr()[..pattern.len()];
         let result = if values.is_symmetric() {
@@ -228,13 +247,17 @@ impl LinearSolver for DirectSolver {
         if values.is_symmetric() {
             self.indefinite = negative > 0;
         }
-        self.current = true;
-        Ok(Inertia { negative })
+        let inertia = Inertia { negative };
+        self.current = Some(inertia);
+        Ok(inertia)
     }
 
     fn renew(&mut self, values: &MatrixValues) -> Result<Option<Inertia>, LinearError> {
+        if let Some(inertia) = self.known(values) {
+            return Ok(Some(inertia));
+        }
         let definite = self.factor.as_ref().is_some_and(Factor::is_definite);
-        if self.current && definite && values.is_symmetric() {
+        if self.current.is_some() && definite && values.is_symmetric() {
             let LinearStats {
                 factor_flops,
                 nnz_factor,
@@ -284,7 +307,7 @@ impl LinearSolver for DirectSolver {
 
     fn precondition(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
         match (&self.analysis, &mut self.factor) {
-            (Some(_), Some(_)) if !self.current => return Err(LinearError::NotFactorized),
+            (Some(_), Some(_)) if self.current.is_none() => return Err(LinearError::NotFactorized),
             (Some(analysis), Some(factor)) => factor.solve(&analysis.fronts, rhs),
             _ => return Err(LinearError::NotAnalysed),
         }

@@ -305,3 +305,27 @@ fn a_matrix_near_the_factor_is_solved_without_its_own_where_that_pays() {
         assert_eq!(solver.stats().cholesky, seed as usize);
     }
 }
+
+#[test]
+fn a_matrix_is_not_factorised_twice_in_a_row() {
+    let p = grid([6, 4, 2], 3);
+    let [first, other] = [1, 2].map(|seed| values(&p, seed, |_| 90.0, false));
+    let mut solver = DirectSolver::default();
+    solver.analyze(&p).unwrap();
+    for (v, factorised) in [(&first, 1), (&first, 1), (&other, 2), (&first, 3)] {
+        assert_eq!(solver.inertia(v).unwrap().negative, 0);
+        assert_eq!(
+            solver.renew(v).unwrap(),
+            Some(crate::linear::Inertia::default())
+        );
+        assert_eq!(solver.stats().factorised, factorised);
+    }
+    solver.factorize(&first).unwrap();
+    assert_eq!(solver.stats().factorised, 4);
+    // What could not be factorised is no factor at hand.
+    let mut singular = first;
+    singular.lower.fill(0.0);
+    for _ in 0..2 {
+        assert!(solver.inertia(&singular).is_err());
+    }
+}

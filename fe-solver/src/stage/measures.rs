@@ -148,7 +148,7 @@ impl Stage<'_> {
         };
         self.residual(u, lambda, &tangent)?;
         self.linear.expect(self.signs.negative > 0);
-        let factorised = self.factorise();
+        let factorised = self.inertia();
         // The next matrix is an operator of the driver.
         self.linear.expect(false);
         let singular = match factorised {

@@ -16,6 +16,7 @@ use fe_core::state::StateStore;
 use crate::critical::Signs;
 use crate::error::SolverError;
 use crate::linear::{DirectSolver, Inertia, LinearError, LinearSolver};
+use fe_core::sparsity::MatrixValues;
 
 pub use measures::{LEAST_FORCE, LEAST_SCALE, Residual};
 
@@ -319,24 +320,28 @@ impl<'m> Stage<'m> {
     ///
     /// [`SolverError::Singular`] naming node and DOF, or [`SolverError::Linear`].
     pub fn factorise(&mut self) -> Result<(), SolverError> {
-        let begin = Instant::now();
-        let result = self.linear.factorize(&self.assembled.matrix).map(Some);
-        self.factorised(begin, result)
+        self.factorised(|linear, matrix| linear.factorize(matrix).map(Some))
     }
 
-    /// Counts a factorisation that began at `begin`, unless it was put off.
+    /// Hands the matrix over, and takes the signs of its pivots if it was factorised.
     fn factorised(
         &mut self,
-        begin: Instant,
-        result: Result<Option<Inertia>, LinearError>,
+        hand_over: impl FnOnce(&mut DirectSolver, &MatrixValues) -> Result<Option<Inertia>, LinearError>,
     ) -> Result<(), SolverError> {
         self.stable_tangent = false;
-        self.counters.factorisations += usize::from(!self.linear.is_put_off());
+        let (begin, before) = (Instant::now(), self.linear.stats().factorised);
+        let result = hand_over(&mut self.linear, &self.assembled.matrix);
         self.times.factorise += begin.elapsed();
+        self.counters.factorisations += self.linear.stats().factorised - before;
         if let Some(inertia) = result.map_err(|e| self.place(e))? {
             self.counters.negative_pivots = inertia.negative;
         }
         Ok(())
+    }
+
+    /// The same, unless the factor at hand is that of this matrix.
+    fn inertia(&mut self) -> Result<(), SolverError> {
+        self.factorised(|linear, matrix| linear.inertia(matrix).map(Some))
     }
 
     /// Makes the matrix of the last evaluation that asked for an operator that of the next solutions; factorises it only
@@ -346,9 +351,7 @@ impl<'m> Stage<'m> {
     ///
     /// Those of [`Self::factorise`].
     pub fn renew(&mut self) -> Result<(), SolverError> {
-        let begin = Instant::now();
-        let result = self.linear.renew(&self.assembled.matrix);
-        self.factorised(begin, result)
+        self.factorised(LinearSolver::renew)
     }
 
     /// Solves with the last factor, in place.
@@ -357,10 +360,9 @@ impl<'m> Stage<'m> {
     ///
     /// [`SolverError::Singular`] or [`SolverError::Linear`].
     pub fn solve(&mut self, rhs: &mut [f64]) -> Result<(), SolverError> {
-        let begin = Instant::now();
-        let put_off = self.linear.is_put_off();
+        let (begin, before) = (Instant::now(), self.linear.stats().factorised);
         let result = self.linear.solve_in_place(rhs);
-        self.counters.factorisations += usize::from(put_off && !self.linear.is_put_off());
+        self.counters.factorisations += self.linear.stats().factorised - before;
         self.times.solve += begin.elapsed();
         result.map_err(|e| self.place(e))
     }
