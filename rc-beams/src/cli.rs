@@ -122,6 +122,9 @@ fn run_beams(beams: &[String], options: &RunOptions) -> Result<Exit, Shown> {
         eprintln!("nothing was run");
         shown
     })?;
+    for warning in run::warnings(&specimens, options) {
+        eprintln!("warning: {warning}");
+    }
     run::run_all(&specimens, options).map_err(|error| show(error.exit(), error))
 }
 

@@ -215,3 +215,36 @@ fn other_drivers_and_laws_run() {
         assert!(!folder.path().join("A-SO3-1/fields.pvd").exists());
     }
 }
+
+/// Target: what is allowed and hardly meant is run, and warned of; beams with sheets are not warned of options of sheets.
+#[test]
+fn options_that_do_nothing_are_warned_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let warned = |beam: &str| {
+        let output = run(
+            folder.path(),
+            &[
+                beam,
+                "--mesh",
+                "16x3",
+                "--until",
+                "0.1",
+                "--fields",
+                "none",
+                "--bond",
+                "perfect",
+                "--threads",
+                "1024",
+            ],
+        );
+        let shown = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{shown}");
+        assert!(
+            shown.contains("warning: --threads 1024 is slower"),
+            "{shown}"
+        );
+        shown.contains("warning: --bond has no effect on beams without sheets")
+    };
+    assert!(warned("A-SO3-1"));
+    assert!(!warned("A-SW3-2"));
+}

@@ -1,10 +1,13 @@
 //! Options that contradict each other, or that others leave without effect.
 
+use std::thread;
+
 use fe_elements::HexRule;
 use fe_materials::fixed_crack::ShearTransfer;
 
 use crate::build::ModelSettings;
-use crate::options::{Cracks, Law, RunOptions, name};
+use crate::options::{Bond, Cracks, Law, RunOptions, name};
+use crate::spec::Specimen;
 
 /// What is wrong with the options that have led to `settings`, and the remedy; nothing where they fit.
 pub(super) fn conflict(options: &RunOptions, settings: &ModelSettings) -> Option<String> {
@@ -44,4 +47,25 @@ fn too_few_points(settings: &ModelSettings) -> Option<String> {
              --preset characteristic without another) has too few points: give --mesh {mesh}x1, or --integration irons"
         )
     })
+}
+
+/// What can be run and is hardly meant, a line each: options of sheets where none of the `specimens` has any, and more
+/// threads than cores.
+pub(crate) fn warnings(specimens: &[Specimen], options: &RunOptions) -> Vec<String> {
+    let of_sheets = [
+        ("--bond", options.bond != Bond::default()),
+        ("--soffit-fibre", options.soffit_fibre.is_some()),
+        ("--sheet-shear", options.sheet_shear.is_some()),
+        ("--strip-bond", options.strip_bond.is_some()),
+        ("--counterfactual", options.counterfactual),
+    ];
+    let bare = specimens.iter().all(|s| s.sheets.is_none());
+    let idle = of_sheets.iter().filter(|(_, given)| bare && *given);
+    let idle = idle.map(|(flag, _)| format!("{flag} has no effect on beams without sheets"));
+    let cores = thread::available_parallelism().map_or(usize::MAX, usize::from);
+    let threads = options.threads.map_or(0, usize::from);
+    let crowded = (threads > cores).then(|| {
+        format!("--threads {threads} is slower than one per core, of which there are {cores}")
+    });
+    idle.chain(crowded).collect()
 }

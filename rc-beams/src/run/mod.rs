@@ -35,6 +35,7 @@ use crate::results::resources::Resources;
 use crate::results::sheets::{MapState, SheetDrop};
 use crate::results::summary::{Figures, Summary, WallTime, Work};
 use crate::spec::Specimen;
+pub(crate) use conflicts::warnings;
 pub use error::RunError;
 use plan::{driver, input_hash, settings, setup, stepping};
 use recording::Recording;
