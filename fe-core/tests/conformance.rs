@@ -137,6 +137,17 @@ fn an_unsymmetric_operator_is_found() {
 }
 
 #[test]
+fn points_answered_otherwise_together_than_alone_are_found() {
+    for flaw in [Flaw::OtherStressTogether, Flaw::DropsAPoint] {
+        let found = failure(flaw);
+        assert!(
+            matches!(found, CheckFailure::NotRepeatable { between, .. } if between.contains("update_many")),
+            "{found}"
+        );
+    }
+}
+
+#[test]
 fn kinks_beyond_the_allowed_share_are_refused() {
     let strict = MaterialCheck {
         kink_share: 0.0,
@@ -162,6 +173,14 @@ fn impossible_settings_are_refused() {
         MaterialCheck {
             difference_step: 0.0,
             context: PointContext::new(1.0),
+            ..check()
+        },
+        MaterialCheck {
+            paths: 0,
+            ..check()
+        },
+        MaterialCheck {
+            dissipation_tolerance: f64::NAN,
             ..check()
         },
     ] {

@@ -47,6 +47,7 @@ mod random;
 mod rigid;
 
 mod settings;
+mod together;
 mod walk;
 
 pub use element::check_element;

@@ -55,11 +55,37 @@ impl MaterialCheck {
 
     /// Refuses settings that cannot drive a path.
     pub(super) fn validate(&self) -> Result<(), CheckFailure> {
+        counts(self.paths, self.steps)?;
+        tolerances(&[
+            ("tangent tolerance", self.tangent_tolerance),
+            ("share of kinks", self.kink_share),
+            ("drift tolerance", self.drift_tolerance),
+            ("dissipation tolerance", self.dissipation_tolerance),
+            ("isotropy tolerance", self.isotropy_tolerance),
+        ])?;
         positive("number of amplitudes", self.amplitude.len() as f64)?;
         positive("difference step", self.difference_step)?;
         self.amplitude
             .iter()
             .try_for_each(|&a| positive("amplitude", a))
+    }
+}
+
+/// Without a path or a step nothing is checked.
+fn counts(paths: usize, steps: usize) -> Result<(), CheckFailure> {
+    positive("number of paths", paths as f64)?;
+    positive("number of steps", steps as f64)
+}
+
+/// Tolerances that are no numbers would let everything pass; infinite ones switch a demand off.
+fn tolerances(all: &[(&'static str, f64)]) -> Result<(), CheckFailure> {
+    match all.iter().find(|(_, value)| value.is_nan() || *value < 0.0) {
+        None => Ok(()),
+        Some(&(what, value)) => Err(CheckFailure::Setting {
+            what,
+            value,
+            allowed: "[0, inf]",
+        }),
     }
 }
 
@@ -134,6 +160,13 @@ impl ElementCheck {
         element: &dyn Element,
         coords: &[[f64; 3]],
     ) -> Result<(), CheckFailure> {
+        counts(self.paths, self.steps)?;
+        tolerances(&[
+            ("tangent tolerance", self.tangent_tolerance),
+            ("share of kinks", self.kink_share),
+            ("rigid tolerance", self.rigid_tolerance),
+            ("balance tolerance", self.balance_tolerance),
+        ])?;
         positive("number of amplitudes", self.amplitude.len() as f64)?;
         positive("difference step", self.difference_step)?;
         for &a in &self.amplitude {
@@ -144,6 +177,13 @@ impl ElementCheck {
                 what: "number of coordinates",
                 value: coords.len() as f64,
                 allowed: "one per node of the element",
+            });
+        }
+        if let Some(&value) = coords.iter().flatten().find(|x| !x.is_finite()) {
+            return Err(CheckFailure::Setting {
+                what: "coordinate",
+                value,
+                allowed: "finite numbers",
             });
         }
         Ok(())

@@ -4,8 +4,12 @@ use super::difference::{Differences, Verdict, norm, ratio};
 use super::failure::{CheckFailure, Place, equal, finite};
 use super::random::Random;
 use super::settings::{MaterialCheck, MaterialReport};
+use super::together::together;
 use crate::kinematics::Kinematics;
 use crate::material::{Material, Operator, Response, state_labels};
+
+/// Shares of the step at which points are asked together: more than vectors are wide.
+const SHARES: [f64; 9] = [1.0, 0.0, 0.9, 0.5, 0.1, 0.7, 0.3, 0.8, 0.2];
 
 /// A law, its history, and the scales that tolerances refer to.
 #[derive(Debug)]
@@ -64,6 +68,9 @@ impl<'a, K: Kinematics> Walk<'a, K> {
     ) -> Result<(), CheckFailure> {
         self.place.step = step;
         let answer = self.repeatable(strain)?;
+        let points = SHARES.map(|share| self.between(strain, share));
+        let ctx = &self.check.context;
+        together(self.law, (&points, &self.committed), ctx, self.place)?;
         let largest = K::components(&answer.response.stress)
             .iter()
             .fold(0.0_f64, |m, s| m.max(s.abs()));
@@ -88,6 +95,15 @@ impl<'a, K: Kinematics> Walk<'a, K> {
         self.strain = *strain;
         self.committed = answer.state;
         Ok(())
+    }
+
+    /// The strain at a share of the step.
+    fn between(&self, strain: &K::Vector, share: f64) -> K::Vector {
+        let ends = K::components(&self.strain)
+            .iter()
+            .zip(K::components(strain));
+        let strain: Vec<f64> = ends.map(|(a, b)| a + share * (b - a)).collect();
+        K::vector(&strain)
     }
 
     /// One update; `trial` holds `junk` before.

@@ -81,6 +81,10 @@ pub enum Flaw {
     PromisesSymmetricPart,
     Refuses,
     Latches,
+    /// Points together are answered otherwise than alone.
+    OtherStressTogether,
+    /// The last of several points is not answered.
+    DropsAPoint,
 }
 
 /// Uniaxial damage: sigma = (1 - d(kappa)) E eps with kappa = max |eps|, d = 1 - (e0/kappa) exp((e0 - kappa)/ef),
@@ -115,6 +119,27 @@ impl Material<Axial> for Damage {
 
     fn state_vars(&self) -> &[StateVar] {
         &VARS
+    }
+
+    fn update_many(
+        &self,
+        strains: &[Vector1<f64>],
+        (committed, trial): (&[f64], &mut [f64]),
+        ctx: &PointContext,
+        take: &mut dyn FnMut(usize, &Response<Axial>),
+    ) -> Result<(), (usize, MaterialError)> {
+        for (p, strain) in strains.iter().enumerate() {
+            let own = 2 * p..2 * p + 2;
+            let answer = self.update(strain, &committed[own.clone()], &mut trial[own], ctx);
+            let mut response = answer.map_err(|error| (p, error))?;
+            if self.0 == Flaw::OtherStressTogether {
+                response.stress *= 1.0 + 1e-15;
+            }
+            if self.0 != Flaw::DropsAPoint || p + 1 < strains.len() {
+                take(p, &response);
+            }
+        }
+        Ok(())
     }
 
     fn update(
