@@ -226,6 +226,28 @@ fn a_stiffness_off_by_one_percent_is_found() {
 }
 
 #[test]
+fn a_negative_secant_operator_of_an_element_is_found() {
+    let found = element_failure(Flaw::IndefiniteSecant, Flaw::None);
+    assert!(
+        matches!(found, CheckFailure::SecantNegative { .. }),
+        "{found}"
+    );
+}
+
+#[test]
+fn a_force_that_does_not_belong_to_the_written_state_is_found() {
+    // Its tangent, that of the state to come, is a breach as well.
+    let check = ElementCheck {
+        tangent_tolerance: f64::INFINITY,
+        ..ElementCheck::new(0.05)
+    };
+    let law = Arc::new(Damage(Flaw::StressOfTheOldState));
+    let element = Truss::new([0, 1], &ENDS, law, Flaw::None);
+    let found = check_element(&element, &ENDS, &check).unwrap_err();
+    assert!(matches!(found, CheckFailure::ForceDrift { .. }), "{found}");
+}
+
+#[test]
 fn an_unsymmetric_stiffness_that_is_no_derivative_is_found() {
     let found = element_failure(Flaw::None, Flaw::Unsymmetric);
     assert!(matches!(found, CheckFailure::Tangent { .. }), "{found}");

@@ -1,5 +1,7 @@
 //! One random path of an element, with every demand made on a step.
 
+use nalgebra::DMatrix;
+
 use super::difference::{Differences, Verdict, norm, ratio};
 use super::failure::{CheckFailure, Place, equal, finite};
 use super::rigid::Motion;
@@ -10,6 +12,12 @@ use crate::material::Operator;
 /// Share of the norm of a matrix by which another order of its sums may differ.
 const ROUNDING: f64 = 1e-13;
 
+/// Share of the largest eigenvalue that rounding may leave where a rigid motion has none.
+const NO_EIGENVALUE: f64 = 1e-9;
+
+/// Share of the largest force by which the state just written may change it.
+const DRIFT: f64 = 1e-10;
+
 /// An element on one path.
 #[derive(Debug)]
 pub(super) struct Drive<'a> {
@@ -19,6 +27,8 @@ pub(super) struct Drive<'a> {
     pub(super) base: Vec<f64>,
     /// Norm of the stiffness of the virgin state.
     stiffness: f64,
+    /// Largest force so far.
+    force: f64,
     n: usize,
 }
 
@@ -43,6 +53,7 @@ impl<'a> Drive<'a> {
             place: Place { path, step: 0 },
             base: vec![f64::NAN; element.state_len()],
             stiffness: 0.0,
+            force: 0.0,
             n,
         };
         element.init_state(&mut drive.base);
@@ -94,6 +105,52 @@ impl<'a> Drive<'a> {
     /// Takes what the step latches into the base state.
     pub(super) fn latch(&mut self, answer: &Answer) {
         self.element.latch(&answer.state, &mut self.base);
+    }
+
+    /// The state just written, from which the element goes on, gives the same force again.
+    pub(super) fn settle(&mut self, u: &[f64], answer: Answer) -> Result<(), CheckFailure> {
+        self.base = answer.state;
+        // What is relaxed goes on with time.
+        if self.check.relaxation < 1.0 {
+            return Ok(());
+        }
+        let again = self.evaluate(u, Operator::None, f64::NAN)?.force;
+        let largest = answer.force.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+        self.force = self.force.max(largest);
+        let limit = DRIFT * self.force;
+        let pairs = answer.force.iter().zip(&again).enumerate();
+        for (i, (&first, &second)) in pairs {
+            if second.is_nan() || (first - second).abs() > limit {
+                return Err(CheckFailure::ForceDrift {
+                    place: self.place,
+                    component: self.label(i),
+                    first,
+                    second,
+                    limit,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The secant operator, of which the upper triangle counts, has no negative eigenvalue.
+    pub(super) fn secant(&self, u: &[f64]) -> Result<(), CheckFailure> {
+        let stiffness = self.evaluate(u, Operator::Secant, f64::NAN)?.stiffness;
+        let label = |k| format!("secant operator ({}, {})", k / self.n, k % self.n);
+        finite(self.place, &stiffness, label)?;
+        let eigenvalues = DMatrix::from_fn(self.n, self.n, |i, j| {
+            stiffness[i.min(j) * self.n + i.max(j)]
+        })
+        .symmetric_eigenvalues();
+        let (least, largest) = (eigenvalues.min(), eigenvalues.amax());
+        if least < -NO_EIGENVALUE * largest {
+            return Err(CheckFailure::SecantNegative {
+                place: self.place,
+                least,
+                largest,
+            });
+        }
+        Ok(())
     }
 
     /// Largest force of a motion of the virgin element, relative to stiffness times displacement; none of one that moves no

@@ -20,6 +20,12 @@ use crate::element::Element;
 /// - The stiffness is the derivative of the force, by central differences, and thereby symmetric where
 ///   [`Element::unsymmetric`] promises it (only the upper triangle is read then). Kinks are treated as in
 ///   [`check_material`](super::check_material), and so is what the element latches.
+/// - The secant operator has no negative eigenvalue.
+/// - At the same displacements, from the state just written, the forces are the same again.
+///
+/// Not checked is [`Element::free_energy`]: the check of the law is what proves it. Elements are taken to be
+/// geometrically linear: small rotations give no force, and moments are taken about the positions at rest. Of others
+/// an infinite `rigid_tolerance` and `balance_tolerance` leave the rest of the demands.
 ///
 /// # Errors
 ///
@@ -56,7 +62,8 @@ pub fn check_element(
                 None => report.kinks += 1,
             }
             report.steps += 1;
-            drive.base = answer.state;
+            drive.secant(u)?;
+            drive.settle(u, answer)?;
         }
     }
     few_kinks(report.kinks, report.steps, check.kink_share)?;

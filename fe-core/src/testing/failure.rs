@@ -96,6 +96,35 @@ pub enum CheckFailure {
         /// Allowed change (MPa).
         limit: f64,
     },
+    /// An evaluation at the same displacements, from the state just written, changes the force.
+    #[error(
+        "{place}: force {component} changes from {first} to {second} N by an evaluation at the same displacements from \
+         the state just written (allowed {limit:.3e}); that state is not the one the force belongs to"
+    )]
+    ForceDrift {
+        /// Where.
+        place: Place,
+        /// DOF and node.
+        component: String,
+        /// Force of the first evaluation (N).
+        first: f64,
+        /// Force of the second evaluation (N).
+        second: f64,
+        /// Allowed change (N).
+        limit: f64,
+    },
+    /// The secant operator of an element has a negative eigenvalue.
+    #[error(
+        "{place}: the secant operator has the eigenvalue {least:.3e} beside a largest of {largest:.3e}: it must not be negative"
+    )]
+    SecantNegative {
+        /// Where.
+        place: Place,
+        /// Least eigenvalue.
+        least: f64,
+        /// Largest magnitude of an eigenvalue.
+        largest: f64,
+    },
     /// The tangent is not the derivative of the stress (or force).
     #[error(
         "{place}: the tangent entry d({row})/d({column}) is {given}, but differences give {difference} \
