@@ -212,7 +212,7 @@ impl StepControl {
                     cut_back(stage);
                     length = shorter;
                 }
-                Err(e) if can_shorten && e.is_recoverable() => {
+                Err(e) if can_shorten && Self::may_recover(&e, stage) => {
                     cut_back(stage);
                     length = shorter;
                 }
@@ -233,6 +233,13 @@ impl StepControl {
                 }
             }
         }
+    }
+
+    /// Whether a shorter step may help. A model whose stiffness is singular before the first step never was held.
+    fn may_recover(error: &SolverError, stage: &Stage<'_>) -> bool {
+        let never_held =
+            matches!(error, SolverError::Singular { .. }) && stage.counters().steps == 0;
+        error.is_recoverable() && !never_held
     }
 
     fn attempt(

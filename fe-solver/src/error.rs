@@ -19,7 +19,8 @@ pub enum SolverError {
     /// The model can move without resistance.
     #[error(
         "the stiffness is singular at {dof} of node {node} at {position:?} mm (pivot ratio {ratio:.1e}): \
-         the model, or a part of it, is not held there; add a support or connect the part"
+         the model, or a part of it, is not held there; add a support or connect the part, or, if it has just come \
+         loose, end before"
     )]
     Singular {
         /// Node.
@@ -142,10 +143,11 @@ impl SolverError {
         })
     }
 
-    /// Whether a shorter step may cure it.
+    /// Whether a shorter step may cure it: a part that has just come loose leaves the stiffness singular, too.
     pub fn is_recoverable(&self) -> bool {
         match self {
             Self::Model(e) => e.is_recoverable(),
+            Self::Singular { .. } => true,
             _ => false,
         }
     }

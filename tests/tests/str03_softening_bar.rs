@@ -6,11 +6,12 @@
 
 use fe_core::dof::Dof;
 use fe_solver::control::StepControl;
+use fe_solver::error::SolverError;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings};
 use fe_solver::path::FreeDisplacement;
 use fe_solver::secant::SecantAnderson;
 use fe_tests::mesh::nodes_where;
-use fe_tests::softening_bar::{AREA, ENERGY, OPENING, STRENGTH, YOUNG, bar, held};
+use fe_tests::softening_bar::{AREA, ENERGY, OPENING, STRENGTH, YOUNG, bar, held, moved};
 use fe_tests::solve::run;
 
 /// Stress and displacement of the end along the path of a bar of `n` cells, the first of which cracks; driven by the
@@ -107,4 +108,25 @@ fn a_bar_in_two_parts_is_in_equilibrium() {
         peak > 0.8 * STRENGTH * AREA && last.abs() < 1e-3 * peak,
         "{peak} {last}"
     );
+}
+
+/// Protects the approach to the end of a bar that breaks: a tangent that is singular, as that of a part just come loose,
+/// shortens the step. Target: all but a hundredth of the strength is followed with steps of a fourteenth of the opening, as with
+/// short ones.
+#[test]
+fn a_broken_bar_shortens_the_step() {
+    let (model, conditions) = moved(300.0, &[2.5, 2.2, 2.5]);
+    let control = StepControl::new(5e-3, 0.09);
+    let mut newton = NewtonRaphson::new(NewtonSettings::default());
+    let mut last = f64::INFINITY;
+    let end = run(
+        &model,
+        conditions,
+        &control,
+        &mut newton,
+        |_| {},
+        |view| last = view.load,
+    );
+    assert!(matches!(end, Err(SolverError::Singular { .. })));
+    assert!(last < 0.01 * STRENGTH * AREA, "{last} N are left");
 }
