@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -167,14 +167,7 @@ fn an_interrupted_run_keeps_what_it_has() {
         while rows() < 5 && child.try_wait().unwrap().is_none() {
             sleep(Duration::from_millis(5));
         }
-        let id = child.id().to_string();
-        assert!(
-            Command::new("kill")
-                .args([signal, &id])
-                .status()
-                .unwrap()
-                .success()
-        );
+        signal_to(&child, signal);
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(130), "{signal}");
         let line = String::from_utf8(output.stdout).unwrap();
@@ -189,6 +182,53 @@ fn an_interrupted_run_keeps_what_it_has() {
         assert!(!fields.contains("fields_0002.vtu"));
         assert_eq!(summary(folder.path())["stop_reason"], "stopped by the user");
     }
+}
+
+fn signal_to(child: &Child, signal: &str) {
+    let status = Command::new("kill")
+        .args([signal, &child.id().to_string()])
+        .status();
+    assert!(status.unwrap().success());
+}
+
+/// Target: who stops a beam in its run with half the steps learns that its error bar is missing, and which beams were not
+/// started; `--resume` brings it.
+#[test]
+fn an_interrupted_band_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut arguments = vec![
+        "A-SO3-1",
+        "A-SW3-1",
+        "--mesh",
+        "32x2x1",
+        "--band",
+        "--threads",
+        "1",
+    ];
+    let child = command(folder.path(), &arguments)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    while !folder.path().join("A-SO3-1/fields_0001.vtu").exists() {
+        sleep(Duration::from_millis(2));
+    }
+    signal_to(&child, "-INT");
+    let output = child.wait_with_output().unwrap();
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{shown}");
+    for text in [
+        "in its runs with other steps",
+        "--resume",
+        "A-SW3-1   not started",
+    ] {
+        assert!(shown.contains(text), "{text}: {shown}");
+    }
+    assert!(summary(folder.path())["numerical_error"].is_null());
+    arguments.push("--resume");
+    arguments.remove(1);
+    assert_eq!(run(folder.path(), &arguments).status.code(), Some(0));
+    assert!(summary(folder.path())["numerical_error"]["error_bar"].is_number());
 }
 
 /// Modified Newton-Raphson and the reference law serve the same command.

@@ -14,6 +14,8 @@ mod sheets;
 mod watch;
 
 use std::cmp::Reverse;
+use std::collections::HashSet;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use fe_solver::capacity::{Capacity, Verdict};
@@ -72,9 +74,20 @@ pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, Run
         queue.sort_by_key(|(dofs, _)| Reverse(*dofs));
     }
     let board = Board::new();
-    queue::run(&workers, &queue, |(_, specimen), worker| {
+    let started = Mutex::new(HashSet::new());
+    let exit = queue::run(&workers, &queue, |(_, specimen), worker| {
+        let mut names = started.lock().unwrap_or_else(PoisonError::into_inner);
+        names.insert(specimen.name.as_str());
+        drop(names);
         run(specimen, options, (&interrupt, &board, &worker.threads))
-    })
+    })?;
+    let started = started.into_inner().unwrap_or_else(PoisonError::into_inner);
+    for specimen in specimens {
+        if exit == Exit::Interrupted && !started.contains(specimen.name.as_str()) {
+            board.print_result(&format!("{:<8}  not started", specimen.name));
+        }
+    }
+    Ok(exit)
 }
 
 fn build(specimen: &Specimen, settings: &ModelSettings) -> Result<Beam, RunError> {
@@ -191,10 +204,8 @@ fn run(
             verdict,
         ))
     });
-    // Only a run that was stopped from outside can go on.
-    let over = || matches!(exit, Exit::Done | Exit::StoppedEarly) && !interrupt.is_set();
     let Some((figures, capacity, verdict)) = figures else {
-        if over() {
+        if over(exit) {
             Checkpoint::remove(&folder)?;
         }
         board.print_result(&format!("{:<8}  {kept}", specimen.name));
@@ -214,6 +225,16 @@ fn run(
             peak.map(|perfect| perfect / figures.peak_load_kn)
         }
         _ => None,
+    };
+    let varied = options.band || (options.counterfactual && beam.sheets.is_some());
+    let (kept, exit) = if over(exit) && varied && interrupt.is_set() {
+        let reason = "stopped by the user in its runs with other steps, meshes or bonds";
+        (
+            self::kept(reason, Exit::Interrupted, &folder),
+            Exit::Interrupted,
+        )
+    } else {
+        (kept, exit)
     };
     let diagnosis = diagnosis(&layout, (&peak, &last), &outcome, (&capacity, ratio), watch);
     let setup = setup(specimen, options, &settings, beam, driver.name());
@@ -255,7 +276,7 @@ fn run(
         max_rss_mb: resources.max_rss_mb(),
     };
     summary.write(&folder)?;
-    if over() {
+    if over(exit) {
         Checkpoint::remove(&folder)?;
     }
     board.print_result(&match exit {
@@ -295,6 +316,11 @@ fn end(outcome: &Outcome, interrupt: &Interrupt) -> (String, Exit) {
     }
 }
 
+/// Whether there is nothing left to go on with: only a run that was stopped from outside can.
+const fn over(exit: Exit) -> bool {
+    matches!(exit, Exit::Done | Exit::StoppedEarly)
+}
+
 /// What is said of a run that does not reach its end.
 fn kept(reason: &str, exit: Exit, folder: &Folder) -> String {
     let reason = match exit {
@@ -302,5 +328,9 @@ fn kept(reason: &str, exit: Exit, folder: &Folder) -> String {
         _ => format!("stopped: {reason}"),
     };
     let path = folder.path().display();
-    format!("{reason}; the results up to the last accepted step are in {path}")
+    let remedy = match exit {
+        Exit::Interrupted => "; --resume goes on from there",
+        _ => "",
+    };
+    format!("{reason}; the results up to the last accepted step are in {path}{remedy}")
 }
