@@ -284,3 +284,24 @@ fn options_that_do_nothing_are_warned_of() {
     assert_eq!(warnings("A-SO3-1", &crowded.to_string()), [true, true]);
     assert_eq!(warnings("A-SW3-2", "1"), [false, false]);
 }
+
+/// Protects the range of strengths that specimens may have: the laws of the default serve both ends of it.
+#[test]
+fn the_weakest_and_the_strongest_concrete_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let beam = include_str!("../specimens/A-SO3-1.ron");
+    for (strength, young) in [("16", "25000"), ("63", "38000")] {
+        let changed = beam
+            .replace(
+                "reported_strength_mpa: 27.5",
+                &format!("reported_strength_mpa: {strength}"),
+            )
+            .replace("young_mpa: 25000", &format!("young_mpa: {young}"));
+        let file = folder.path().join(format!("c{strength}.ron"));
+        fs::write(&file, changed).unwrap();
+        let arguments = [file.to_str().unwrap(), "--mesh", "16x2", "--until", "0.3"];
+        let output = run(folder.path(), &arguments);
+        let shown = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{shown}");
+    }
+}

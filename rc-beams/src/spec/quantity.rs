@@ -66,7 +66,10 @@ impl fmt::Display for OutOfRange {
             write!(f, "{value} is not a finite number; ")?;
         }
         write!(f, "allowed: {} to {}{symbol}", range.start(), range.end())?;
-        let meant = |&&(_, factor): &&(&str, f64)| range.contains(&(value * factor));
+        // What is below one is no percentage.
+        let meant = |&&(other, factor): &&(&str, f64)| {
+            range.contains(&(value * factor)) && (other != "%" || *value >= 1.0)
+        };
         if let Some((other, factor)) = unit.mistaken.iter().find(meant) {
             write!(
                 f,
@@ -121,8 +124,8 @@ macro_rules! quantities {
 }
 
 quantities! {
-    /// Compressive strength of concrete (MPa).
-    ConcreteStrength: MPA in 5.0 to 120.0;
+    /// Compressive strength of concrete (MPa), as far as the laws of concrete reach.
+    ConcreteStrength: MPA in 16.0 to 63.0;
     /// Tensile strength of concrete (MPa).
     TensileStrength: MPA in 0.3 to 10.0;
     /// Young's modulus of concrete (MPa).

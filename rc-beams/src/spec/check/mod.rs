@@ -74,7 +74,12 @@ impl Checks<'_> {
     fn ascending(&mut self, path: impl Display, from: f64, to: f64) {
         if to <= from {
             let message = format!("ends at {to} mm; allowed: more than {from} mm, where it begins");
-            self.report(path, message, "exchange the two ends");
+            let remedy = if to < from {
+                "exchange the two ends"
+            } else {
+                "give it a length"
+            };
+            self.report(path, message, remedy);
         }
     }
 

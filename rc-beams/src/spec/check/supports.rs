@@ -41,7 +41,20 @@ impl Checks<'_> {
         } in contacts
         {
             let half = 0.5 * length;
-            let range = end + half..=(self.length() - half).max(end + half);
+            let range = end + half..=self.length() - half;
+            if range.end() - range.start() < -TOLERANCE {
+                self.report(
+                    path,
+                    format!(
+                        "centre of the {what} at {centre} mm; allowed: none, a plate of {length} mm has no place on a beam \
+                         of {} mm behind {end} mm, where the {what} to its left ends",
+                        self.length()
+                    ),
+                    &format!("order the {what}s from left to right, move the one to its left, or shorten the plates"),
+                );
+                end = centre + half;
+                continue;
+            }
             let remedy = format!(
                 "a plate of {length} mm lies on the beam and behind the {what} to its left"
             );
