@@ -224,10 +224,8 @@ pub(super) fn gauges(
         // Over layers of adhesive the sheet lies outside the face.
         let lifted = cells.first().map(|cell| model.mesh().nodes()[cell[0]][2]);
         for g in &specimen.measuring.sheet_gauges {
-            let (s, c) = g.angle_deg.get().to_radians().sin_cos();
-            let half = 0.5 * g.gauge_length_mm.get();
             let z = lifted.unwrap_or(g.z_mm.get());
-            let ends = [-half, half].map(|r| [g.x_mm.get() + r * c, g.y_mm.get() + r * s, z]);
+            let ends = g.ends().map(|(x, y)| [x, y, z]);
             let name = g.name.replace(' ', "_");
             gauges.extend(Gauge::between(ends, name, &cells, model));
         }

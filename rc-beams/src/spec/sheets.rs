@@ -130,6 +130,15 @@ pub struct SheetGauge {
     pub source: String,
 }
 
+impl SheetGauge {
+    /// Its two ends (mm), x and y on the side.
+    pub fn ends(&self) -> [(f64, f64); 2] {
+        let (sin, cos) = self.angle_deg.get().to_radians().sin_cos();
+        let half = 0.5 * self.gauge_length_mm.get();
+        [-half, half].map(|r| (self.x_mm.get() + r * cos, self.y_mm.get() + r * sin))
+    }
+}
+
 /// Strengthening of a beam that was loaded before.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

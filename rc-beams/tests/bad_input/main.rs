@@ -46,6 +46,20 @@ fn run_changed(beam: &str, from: &str, to: &str) -> (String, Option<i32>) {
     (message(&output), output.status.code())
 }
 
+/// Target: where the plates before leave no place for one on the beam, that is said, and no range is made up.
+#[test]
+fn a_plate_without_a_place_is_refused() {
+    let (message, code) = run_changed(BEAM, "x_mm: 610,", "x_mm: 2990,");
+    assert_eq!(code, Some(3));
+    for words in [
+        "supports[1].x_mm: centre of the support at 2440 mm",
+        "has no place on a beam of 3050 mm behind 3040 mm",
+        "order the supports from left to right",
+    ] {
+        assert!(message.contains(words), "{words}: {message}");
+    }
+}
+
 /// `beam.ron:line:column` of `what` inside the changed text.
 fn place(beam: &str, from: &str, to: &str, what: &str) -> String {
     let text = beam.replace(from, to);
@@ -64,6 +78,17 @@ type Case = (
 );
 
 const CASES: &[Case] = &[
+    // No place is left for a plate.
+    (
+        "x_mm: 2440,",
+        "x_mm: 3010,",
+        "3010",
+        &[
+            "supports[1].x_mm",
+            "allowed: 710 to 3000 mm",
+            "a plate of 100 mm lies on the beam",
+        ],
+    ),
     // Unknown field.
     (
         "reported_strength_mpa: 27.5",

@@ -197,6 +197,19 @@ impl Checks<'_> {
                 ),
                 "move the gauge onto a sheet, for instance to the middle of the nearest strip",
             );
+            return;
+        }
+        let length = gauge.gauge_length_mm.get();
+        for (x, y) in gauge.ends() {
+            let on_sheet = |p: &Patch| p.cover.face == Face::Side && p.holds(x, y);
+            if !patches.iter().any(on_sheet) {
+                self.report(
+                    format!("{path}.gauge_length_mm"),
+                    format!("a gauge of {length} mm ends at x = {x:.1} mm, y = {y:.1} mm, off the sheets; allowed: ends on sheets"),
+                    "shorten the gauge, turn it along the sheet, or move it",
+                );
+                return;
+            }
         }
     }
 }
