@@ -86,13 +86,15 @@ impl Capacity {
         let after = &path[best..beyond.map_or(path.len(), |n| best + n)];
         let lowest = after.iter().map(|p| p.load).fold(peak.load, f64::min);
         let post_peak_drop = relative_fall(peak.load, lowest);
-        let reached = after.last().map_or(0.0, |p| p.deflection);
+        // The point may move up.
+        let reached = after.last().map_or(0.0, |p| p.deflection.abs());
+        let at_peak = peak.deflection.abs();
         Some(Self {
             peak: best,
             fell,
             first_drop,
             post_peak_drop,
-            plateau: post_peak_drop < DROP_FALL && reached > PLATEAU_REACH * peak.deflection,
+            plateau: post_peak_drop < DROP_FALL && reached > PLATEAU_REACH * at_peak,
             vertical_drop: after.windows(2).any(|pair| {
                 is_jump(pair, 1) && pair[0].load - pair[1].load >= DROP_FALL * peak.load
             }),
@@ -363,6 +365,17 @@ mod tests {
             viscous: None,
         };
         loads.iter().enumerate().map(point).collect()
+    }
+
+    #[test]
+    fn a_point_that_moves_up_is_read_as_one_that_moves_down() {
+        let mut up = path(&[0.0, 1.0, 2.0, 1.99, 1.98, 1.97]);
+        for steps in 2..=up.len() {
+            let down = Capacity::of(&up[..steps]);
+            up.iter_mut().for_each(|p| p.deflection *= -1.0);
+            assert_eq!(Capacity::of(&up[..steps]), down);
+            assert_eq!(down.unwrap().plateau, steps > 4);
+        }
     }
 
     #[test]
