@@ -212,8 +212,8 @@ pub trait Element: Debug + Send + Sync {
 
     /// Recoverable energy (N mm) of the element, see [`free_energy`](crate::points::free_energy), which does it for elements
     /// of points. Without one the element is taken to unload to the origin, half the product of its forces and
-    /// displacements: one that keeps permanent displacements must give it, or its unloading counts as creating energy and
-    /// is refused.
+    /// displacements: one that keeps permanent displacements, or stiffens as it is stretched, must give it, or reloading it
+    /// counts as creating energy and is refused, and its dissipation is wrong.
     fn free_energy(&self, _u: &[f64], _state: &[f64]) -> Option<f64> {
         None
     }

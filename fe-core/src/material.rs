@@ -253,7 +253,8 @@ pub trait Material<K: Kinematics>: Debug + Send + Sync {
     }
 
     /// Free energy density psi (MPa = N mm/mm3) at a strain and state, if the law promises
-    /// non-negative dissipation: sigma_(n+1) : d_eps - d_psi >= 0 for every step.
+    /// non-negative dissipation: sigma_(n+1) : d_eps - d_psi >= 0 for every step. Without one the point is taken to unload to
+    /// the origin: a law with permanent strains must give it, or steps that reload count as creating energy and are refused.
     fn free_energy(&self, _strain: &K::Vector, _state: &[f64], _ctx: &PointContext) -> Option<f64> {
         None
     }

@@ -69,6 +69,14 @@ pub enum ModelError {
         /// Where they lie (mm).
         position: [f64; 3],
     },
+    /// Conditions of another model.
+    #[error("the conditions are those of a model with {found} DOFs, this one has {expected}")]
+    ForeignConditions {
+        /// DOFs of the model that the conditions were made for.
+        found: usize,
+        /// DOFs of the model at hand.
+        expected: usize,
+    },
     /// A load or a prescribed displacement is not a number.
     #[error("the {what} of {dof} of node {node} at {position:?} mm is not a finite number")]
     NotFinite {
@@ -278,6 +286,15 @@ impl Conditions {
         }
     }
 
+    /// Refuses another model than that of [`Self::new`], as far as the numbers of DOFs tell.
+    fn belong_to(&self, model: &Model) -> Result<(), ModelError> {
+        let (found, expected) = (self.reference.len(), model.dofs().len());
+        if found == expected {
+            return Ok(());
+        }
+        Err(ModelError::ForeignConditions { found, expected })
+    }
+
     /// Holds a DOF where it is: a support or a symmetry plane.
     ///
     /// # Errors
@@ -317,6 +334,7 @@ impl Conditions {
         dof: Dof,
         rate: f64,
     ) -> Result<(), ModelError> {
+        self.belong_to(model)?;
         let (d, factor) = model.leading(node, dof)?;
         model.finite(("prescribed displacement", rate), node, dof)?;
         if factor != 0.0 {
@@ -331,7 +349,7 @@ impl Conditions {
     ///
     /// # Errors
     ///
-    /// [`ModelError`] for a node or DOF that is not there, or a force that is not a finite number.
+    /// [`ModelError`] for a node or DOF that is not there, another model, or a force that is not a finite number.
     pub fn add_dead(
         &mut self,
         model: &Model,
@@ -339,6 +357,7 @@ impl Conditions {
         dof: Dof,
         force: f64,
     ) -> Result<(), ModelError> {
+        self.belong_to(model)?;
         let (d, factor) = model.leading(node, dof)?;
         model.finite(("dead load", force), node, dof)?;
         self.dead[d] += factor * force;
@@ -349,7 +368,7 @@ impl Conditions {
     ///
     /// # Errors
     ///
-    /// [`ModelError`] for a node or DOF that is not there, or a force that is not a finite number.
+    /// [`ModelError`] for a node or DOF that is not there, another model, or a force that is not a finite number.
     pub fn add_reference(
         &mut self,
         model: &Model,
@@ -357,6 +376,7 @@ impl Conditions {
         dof: Dof,
         force: f64,
     ) -> Result<(), ModelError> {
+        self.belong_to(model)?;
         let (d, factor) = model.leading(node, dof)?;
         model.finite(("load", force), node, dof)?;
         self.reference[d] += factor * force;

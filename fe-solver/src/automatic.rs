@@ -34,6 +34,10 @@ enum Control {
 
 /// Newton-Raphson under forces, for paths through limit points and snaps back that nobody has to announce.
 ///
+/// Dissipation is told from the force and the displacements, as of bodies that unload along the secant: elastic bodies that
+/// soften by their geometry, such as shallow arches that snap through, seem to dissipate, and are followed by
+/// [arc length](crate::path::ArcLength) under Newton-Raphson instead.
+///
 /// While a path is elastic the [loaded displacement](LoadedDisplacement) grows by the length of the step (mm). Once
 /// a step has dissipated more than a twentieth of its work, steps are made to [dissipate](Dissipation) as much again
 /// (switching on the energy: Verhoosel, Remmers and Gutierrez 2009, section 4); how much is adapted until the largest

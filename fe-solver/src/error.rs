@@ -36,7 +36,7 @@ pub enum SolverError {
     #[error(
         "no convergence at load factor {lambda:.6} with the shortest step {step:.3e}: relative residual \
          {residual:.2e} after {iterations} iterations (allowed {tolerance:.1e}); worst at {worst}; try \
-         a smaller shortest step, more iterations or the secant driver"
+         shorter steps, another mesh or another driver"
     )]
     NoConvergence {
         /// Load factor of the last accepted step.
@@ -55,7 +55,8 @@ pub enum SolverError {
     /// A step, even the shortest, creates energy.
     #[error(
         "the shortest step {step:.3e} from load factor {lambda:.6} creates energy: it dissipates {dissipated:.3e} N mm \
-         while {work:.3e} N mm of work are done on the model; try a smaller shortest step or another driver"
+         while {work:.3e} N mm of work are done on the model; try shorter steps or another driver, and let laws and elements that do not unload to \
+         the origin along the secant state their free energy"
     )]
     CreatesEnergy {
         /// Load factor of the last accepted step.

@@ -2,7 +2,7 @@
 
 use fe_core::dof::Dof;
 use fe_core::material::{Material, Operator};
-use fe_core::model::{Conditions, Model};
+use fe_core::model::{Conditions, Model, ModelError};
 use fe_core::state::StateStore;
 use fe_elements::HexRule;
 use fe_materials::Elastic;
@@ -53,6 +53,23 @@ fn what_belongs_to_another_model_is_refused() {
             "{wrong}: {refused:?}"
         );
     }
+}
+
+#[test]
+fn conditions_of_another_model_take_nothing() {
+    let ((model, mut conditions), (other, _)) = (row(1), row(2));
+    let last = other.mesh().nodes().len() - 1;
+    for refused in [
+        conditions.add_reference(&other, last, Dof::Ux, 1.0),
+        conditions.add_dead(&other, last, Dof::Ux, 1.0),
+        conditions.prescribe(&other, last, Dof::Ux, 1.0),
+    ] {
+        assert!(
+            matches!(refused, Err(ModelError::ForeignConditions { .. })),
+            "{refused:?}"
+        );
+    }
+    conditions.add_reference(&model, 0, Dof::Ux, 1.0).unwrap();
 }
 
 #[test]

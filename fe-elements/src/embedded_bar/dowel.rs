@@ -73,7 +73,7 @@ impl Dowel {
     ///
     /// # Errors
     ///
-    /// [`ElementError::Input`] for a value that is not positive.
+    /// [`ElementError::Input`] for a value that is not positive, or a normal without length or direction.
     pub fn he_kwan(
         diameter_mm: f64,
         fc_mpa: f64,
@@ -88,6 +88,12 @@ impl Dowel {
             ("band_width_mm", band_width_mm),
         ];
         admit(&inputs)?;
+        let normal = plane_normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+        positive(
+            "length of plane_normal",
+            normal,
+            "give the normal of the plane in which the dowel acts",
+        )?;
         let inertia = std::f64::consts::PI * diameter_mm.powi(4) / 64.0;
         let foundation = 127.0 * 0.8 * fc_mpa.sqrt() / diameter_mm.powf(2.0 / 3.0);
         let beta = (foundation * diameter_mm / (4.0 * young_mpa * inertia)).powf(0.25);
@@ -239,6 +245,14 @@ mod tests {
         for shear in [1e-6, 1.0] {
             let [one, two] = [one, two].map(|dowel| dowel.at(shear, 0.0, 100.0));
             assert_eq!((two.force, two.slid), (2.0 * one.force, one.slid));
+        }
+    }
+
+    /// Without a normal there is no plane to act in.
+    #[test]
+    fn a_normal_that_is_none_is_refused() {
+        for normal in [[0.0; 3], [f64::NAN, 0.0, 1.0]] {
+            assert!(Dowel::he_kwan(10.0, 30.0, 200e3, 50.0, normal).is_err());
         }
     }
 

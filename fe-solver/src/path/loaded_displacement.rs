@@ -7,6 +7,9 @@ use crate::stage::Stage;
 
 /// The displacement that the reference forces f work on grows by the length of the step (mm).
 /// g = f . du/sum |f| - length: displacement control of a load that is spread over nodes.
+///
+/// Where nodal forces differ in sign, as those of an even pressure on a face of a `Hex20` at its corners do, sum |f| exceeds the
+/// load, and its points move further than the length by that ratio (5/3 for that pressure).
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LoadedDisplacement(Linear);
 

@@ -50,7 +50,7 @@ impl Checks<'_> {
                          of {} mm behind {end} mm, where the {what} to its left ends",
                         self.length()
                     ),
-                    &format!("order the {what}s from left to right, move the one to its left, or shorten the plates"),
+                    format!("order the {what}s from left to right, move the one to its left, or shorten the plates"),
                 );
                 end = centre + half;
                 continue;
