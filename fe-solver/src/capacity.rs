@@ -372,7 +372,9 @@ mod tests {
         let mut up = path(&[0.0, 1.0, 2.0, 1.99, 1.98, 1.97]);
         for steps in 2..=up.len() {
             let down = Capacity::of(&up[..steps]);
-            up.iter_mut().for_each(|p| p.deflection *= -1.0);
+            for point in &mut up {
+                point.deflection *= -1.0;
+            }
             assert_eq!(Capacity::of(&up[..steps]), down);
             assert_eq!(down.unwrap().plateau, steps > 4);
         }

@@ -109,6 +109,10 @@ impl Driver for NewtonRaphson {
                 allowed: "tangent or secant",
             });
         }
+        SolverError::positive("iterations of Newton-Raphson", s.max_iterations as f64)?;
+        if let Refactor::Below(reduction) = s.refactor {
+            SolverError::positive("reduction that keeps the factor", reduction)?;
+        }
         self.constraint.begin(stage, request.length)?;
         let [tangent, force] = [s.operator, Operator::None].map(|operator| EvaluationContext {
             relaxation: self.relaxation,

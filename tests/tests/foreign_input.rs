@@ -9,8 +9,8 @@ use fe_materials::Elastic;
 use fe_solver::control::StepControl;
 use fe_solver::error::SolverError;
 use fe_solver::explicit::{Explicit, ExplicitSettings};
-use fe_solver::newton::{NewtonRaphson, NewtonSettings};
-use fe_solver::path::{FreeDisplacement, Mode, PathConstraint};
+use fe_solver::newton::{NewtonRaphson, NewtonSettings, Refactor};
+use fe_solver::path::{ArcLength, Dissipation, FreeDisplacement, Mode, PathConstraint};
 use fe_solver::recorder::Silent;
 use fe_solver::stage::Stage;
 use fe_tests::conditions::hold;
@@ -100,6 +100,35 @@ fn a_path_that_is_not_of_the_stage_is_refused() {
         matches!(blind, Err(SolverError::Setting { .. })),
         "{blind:?}"
     );
+}
+
+#[test]
+fn a_path_that_no_setting_can_follow_is_refused() {
+    let (model, conditions) = row(1);
+    let rest = NewtonSettings::default();
+    let drivers = [
+        NewtonRaphson::with_constraint(rest, Box::new(ArcLength::spherical(f64::NAN))),
+        NewtonRaphson::with_constraint(rest, Box::new(Dissipation::default())),
+        NewtonRaphson::new(NewtonSettings {
+            max_iterations: 0,
+            ..rest
+        }),
+        NewtonRaphson::new(NewtonSettings {
+            refactor: Refactor::Below(f64::NAN),
+            ..rest
+        }),
+    ];
+    for mut driver in drivers {
+        let mut state = StateStore::new(model.elements());
+        let zero = vec![0.0; model.dofs().len()];
+        let mut stage = Stage::new(&model, conditions.clone(), &mut state, zero).unwrap();
+        let control = StepControl::new(0.1, 1.0);
+        let refused = control.run(&mut stage, &mut driver, &mut Silent).err();
+        assert!(
+            matches!(refused, Some(SolverError::Setting { .. })),
+            "{refused:?}"
+        );
+    }
 }
 
 #[test]

@@ -43,6 +43,8 @@ impl ArcLength {
 
 impl PathConstraint for ArcLength {
     fn begin(&mut self, stage: &Stage<'_>, length: f64) -> Result<(), SolverError> {
+        let fits = self.psi.is_finite() && self.psi >= 0.0;
+        SolverError::setting(("psi of the arc length", self.psi), "[0, inf)", fits)?;
         self.length = length;
         self.direction = reference_forces(stage)?;
         let norm = dot(&self.direction, &self.direction).sqrt();

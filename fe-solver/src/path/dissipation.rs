@@ -22,6 +22,14 @@ impl PathConstraint for Dissipation {
         for f in &mut forces {
             *f *= 0.5 * stage.lambda();
         }
+        SolverError::setting(
+            (
+                "load factor where control of the dissipation begins",
+                stage.lambda(),
+            ),
+            "not at rest, where nothing dissipates: begin with another constraint",
+            self.0.slope != 0.0 || forces.iter().any(|f| *f != 0.0),
+        )?;
         self.0.gradient = forces;
         self.0.length = length;
         Ok(())
