@@ -24,7 +24,7 @@ pub enum OnFailure {
 /// Steps in a row that may miss the criterion; a path that loses equilibrium for longer is not followed.
 pub const MAX_FLAGGED: usize = 10;
 
-/// Settings of the step control; lengths in units of the load factor.
+/// Settings of the step control; lengths in units of the load factor, or of what the path constraint of the driver measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepControl {
     /// First step.
@@ -36,7 +36,7 @@ pub struct StepControl {
     pub longest_share: f64,
     /// Shortest step.
     pub shortest: f64,
-    /// Load factor at which the stage ends.
+    /// Load factor at which the stage ends; under a path constraint the length of the path.
     pub end: f64,
     /// Relative residual a step must meet.
     pub criterion: f64,

@@ -15,7 +15,7 @@ pub struct IterationRecord {
     pub attempt: usize,
     /// Iteration within the attempt, counted from 0 (the predictor).
     pub iteration: usize,
-    /// Load factor aimed at.
+    /// Load factor aimed at: the accepted one and the length of the step, whatever a path constraint measures it by.
     pub lambda: f64,
     /// Relative residual.
     pub residual: f64,
@@ -44,9 +44,9 @@ pub struct StepView<'a> {
     pub residual: f64,
     /// Whether the step passed a snap at a held load factor.
     pub held: bool,
-    /// Load conjugate to the load factor.
+    /// Load conjugate to the load factor where it moves prescribed displacements; 0 where forces alone grow.
     pub load: f64,
-    /// Work-conjugate load of the step.
+    /// Work-conjugate load of the step; of meaning as [`Self::load`] is.
     pub work_conjugate_load: f64,
     /// Whether the step was accepted without meeting the criterion.
     pub flagged: bool,

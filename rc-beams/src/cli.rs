@@ -1,5 +1,6 @@
 //! The command line: results go to standard output, messages to standard error.
 
+use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -112,18 +113,18 @@ fn check(files: &[String]) -> Result<Exit, Shown> {
             }
         }
     }
-    eprintln!("{} checked, {bad} bad", files.len());
+    tell(format_args!("{} checked, {bad} bad", files.len()));
     Ok(gravest)
 }
 
 fn run_beams(beams: &[String], options: &RunOptions) -> Result<Exit, Shown> {
     let specimens = load_all(beams).map_err(|errors| {
         let shown = show_all(errors);
-        eprintln!("nothing was run");
+        tell("nothing was run");
         shown
     })?;
     for warning in run::warnings(&specimens, options) {
-        eprintln!("warning: {warning}");
+        tell(format_args!("warning: {warning}"));
     }
     run::run_all(&specimens, options).map_err(|error| show(error.exit(), error))
 }
@@ -132,7 +133,7 @@ fn run_beams(beams: &[String], options: &RunOptions) -> Result<Exit, Shown> {
 fn report(folder: &Path) -> Result<Exit, Shown> {
     let report = results::report::write(folder).map_err(|error| show(Exit::File, error))?;
     for problem in &report.problems {
-        eprintln!("warning: {problem}");
+        tell(format_args!("warning: {problem}"));
     }
     print(report.line() + "\n")?;
     Ok(if report.problems.is_empty() {
@@ -169,6 +170,11 @@ fn print(text: impl AsRef<[u8]>) -> Result<Exit, Shown> {
     }
 }
 
+/// A line to standard error; where that is closed, the exit code has to do.
+fn tell(line: impl Display) {
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
 /// Shows all errors; the program ends as the gravest asks for.
 fn show_all(errors: Vec<InputError>) -> Shown {
     let exits = errors.into_iter().map(|error| show(error.exit(), error).0);
@@ -176,6 +182,6 @@ fn show_all(errors: Vec<InputError>) -> Shown {
 }
 
 fn show(exit: Exit, error: impl Into<Report>) -> Shown {
-    eprintln!("{:?}", error.into());
+    tell(format_args!("{:?}", error.into()));
     Shown(exit)
 }

@@ -28,6 +28,7 @@ fn store(folder: &Path, name: &str) {
     fs::write(folder.join("summary.json"), summary).unwrap();
     let history = "step,deflection_mm,load_kn\n0,0,0\n1,2,90\n2,3,70\n";
     fs::write(folder.join("history.csv"), history).unwrap();
+    fs::write(folder.join("events.csv"), "event,step\n").unwrap();
 }
 
 #[test]

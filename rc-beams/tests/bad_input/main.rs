@@ -46,6 +46,19 @@ fn run_changed(beam: &str, from: &str, to: &str) -> (String, Option<i32>) {
     (message(&output), output.status.code())
 }
 
+/// Target: who closes standard error still gets the code of the finding.
+#[test]
+fn a_closed_standard_error_leaves_the_code() {
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let status = Command::new(env!("CARGO_BIN_EXE_rc-beams"))
+        .args(["check", "no_such_beam"])
+        .stderr(writer)
+        .status();
+    let unknown = rc_beams(&["check", "no_such_beam"], Path::new("."));
+    assert_eq!(status.unwrap().code(), unknown.status.code());
+}
+
 /// Target: where the plates before leave no place for one on the beam, that is said, and no range is made up.
 #[test]
 fn a_plate_without_a_place_is_refused() {

@@ -136,20 +136,28 @@ pub(super) fn read(folder: &Path) -> (Option<Stored>, Vec<String>) {
         sheets: None,
         map: Vec::new(),
     };
-    if exists(&folder.join("events.csv")) {
+    let has = |file: &str| exists(&folder.join(file));
+    if has("events.csv") {
         let events = rows(folder, "events.csv", &mut |row| {
             beam.events.push(event(row)?);
             Ok(())
         });
         wrong.extend(events.err());
     }
-    if exists(&folder.join("sheets.csv")) {
+    // Every run writes its events, and one with sheets two tables of them.
+    let sheet_tables = ["sheets.csv", MAP];
+    let with_sheets = sheet_tables.into_iter().any(has);
+    let expected = sheet_tables.into_iter().filter(|_| with_sheets);
+    for file in expected.chain(["events.csv"]).filter(|file| !has(file)) {
+        wrong.push(format!("{file} is missing"));
+    }
+    if has("sheets.csv") {
         match sheets(folder, peak) {
             Ok(found) => beam.sheets = Some(found),
             Err(what) => wrong.push(what),
         }
     }
-    if exists(&folder.join(MAP)) {
+    if has(MAP) {
         let read = fs::File::open(folder.join(MAP)).map_err(|e| e.to_string());
         match read.and_then(|file| read_map(file).map_err(|e| e.to_string())) {
             Ok(rows) => beam.map = rows,

@@ -30,6 +30,8 @@ fn store(root: &Path, name: &str, peak: f64, test: Option<f64>) {
         0.8 * peak
     );
     fs::write(folder.join("history.csv"), history).unwrap();
+    let events = "event,step,deflection_mm,load_kn,x_mm,y_mm,z_mm,where,detail\n";
+    fs::write(folder.join("events.csv"), events).unwrap();
 }
 
 fn results() -> TempDir {
@@ -240,6 +242,22 @@ fn store_sheets(root: &Path) {
                   1,1,110,0.1,999,99,,10,1,0,0\n2,2,220,0.3,999,99,,1234.4,85.05,0.04,0\n\
                   3,3,176,0.3,999,99,,600,42,0.48,1\n";
     fs::write(root.join("A-SO3-2/sheets.csv"), sheets).unwrap();
+}
+
+#[test]
+fn missing_tables_are_told() {
+    let root = results();
+    store_sheets(root.path());
+    fs::remove_file(root.path().join("A-SO3-1/events.csv")).unwrap();
+    fs::remove_file(root.path().join("A-SO3-2").join(MAP)).unwrap();
+    let problems = write(root.path()).unwrap().problems;
+    assert_eq!(
+        problems,
+        [
+            "A-SO3-1: events.csv is missing".to_owned(),
+            format!("A-SO3-2: {MAP} is missing")
+        ]
+    );
 }
 
 #[test]
