@@ -286,13 +286,22 @@ impl Conditions {
         }
     }
 
-    /// Refuses another model than that of [`Self::new`], as far as the numbers of DOFs tell.
-    fn belong_to(&self, model: &Model) -> Result<(), ModelError> {
+    /// The [leading](Model::leading) DOF of a condition. Refuses what is no number, and another model than that of
+    /// [`Self::new`], as far as the numbers of DOFs tell.
+    fn place(
+        &self,
+        model: &Model,
+        node: NodeId,
+        dof: Dof,
+        quantity: (&'static str, f64),
+    ) -> Result<(usize, f64), ModelError> {
         let (found, expected) = (self.reference.len(), model.dofs().len());
-        if found == expected {
-            return Ok(());
+        if found != expected {
+            return Err(ModelError::ForeignConditions { found, expected });
         }
-        Err(ModelError::ForeignConditions { found, expected })
+        let leading = model.leading(node, dof)?;
+        model.finite(quantity, node, dof)?;
+        Ok(leading)
     }
 
     /// Holds a DOF where it is: a support or a symmetry plane.
@@ -334,9 +343,7 @@ impl Conditions {
         dof: Dof,
         rate: f64,
     ) -> Result<(), ModelError> {
-        self.belong_to(model)?;
-        let (d, factor) = model.leading(node, dof)?;
-        model.finite(("prescribed displacement", rate), node, dof)?;
+        let (d, factor) = self.place(model, node, dof, ("prescribed displacement", rate))?;
         if factor != 0.0 {
             self.prescribed.insert(d, rate / factor);
         } else if rate != 0.0 {
@@ -357,9 +364,7 @@ impl Conditions {
         dof: Dof,
         force: f64,
     ) -> Result<(), ModelError> {
-        self.belong_to(model)?;
-        let (d, factor) = model.leading(node, dof)?;
-        model.finite(("dead load", force), node, dof)?;
+        let (d, factor) = self.place(model, node, dof, ("dead load", force))?;
         self.dead[d] += factor * force;
         Ok(())
     }
@@ -376,9 +381,7 @@ impl Conditions {
         dof: Dof,
         force: f64,
     ) -> Result<(), ModelError> {
-        self.belong_to(model)?;
-        let (d, factor) = model.leading(node, dof)?;
-        model.finite(("load", force), node, dof)?;
+        let (d, factor) = self.place(model, node, dof, ("load", force))?;
         self.reference[d] += factor * force;
         Ok(())
     }

@@ -102,13 +102,11 @@ impl Driver for NewtonRaphson {
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
         let s = self.settings;
-        if s.operator == Operator::None {
-            return Err(SolverError::Setting {
-                what: "operator of Newton-Raphson (none: 0)",
-                value: 0.0,
-                allowed: "tangent or secant",
-            });
-        }
+        SolverError::setting(
+            ("operator of Newton-Raphson (none: 0)", 0.0),
+            "tangent or secant",
+            s.operator != Operator::None,
+        )?;
         SolverError::positive("iterations of Newton-Raphson", s.max_iterations as f64)?;
         if let Refactor::Below(reduction) = s.refactor {
             SolverError::positive("reduction that keeps the factor", reduction)?;

@@ -55,26 +55,34 @@ impl MaterialCheck {
 
     /// Refuses settings that cannot drive a path.
     pub(super) fn validate(&self) -> Result<(), CheckFailure> {
-        counts(self.paths, self.steps)?;
+        path(
+            self.paths,
+            self.steps,
+            &self.amplitude,
+            self.difference_step,
+        )?;
         tolerances(&[
             ("tangent tolerance", self.tangent_tolerance),
             ("share of kinks", self.kink_share),
             ("drift tolerance", self.drift_tolerance),
             ("dissipation tolerance", self.dissipation_tolerance),
             ("isotropy tolerance", self.isotropy_tolerance),
-        ])?;
-        positive("number of amplitudes", self.amplitude.len() as f64)?;
-        positive("difference step", self.difference_step)?;
-        self.amplitude
-            .iter()
-            .try_for_each(|&a| positive("amplitude", a))
+        ])
     }
 }
 
-/// Without a path or a step nothing is checked.
-fn counts(paths: usize, steps: usize) -> Result<(), CheckFailure> {
+/// Without a path or a step nothing is checked, without amplitudes nothing moves.
+fn path(
+    paths: usize,
+    steps: usize,
+    amplitude: &[f64],
+    difference_step: f64,
+) -> Result<(), CheckFailure> {
     positive("number of paths", paths as f64)?;
-    positive("number of steps", steps as f64)
+    positive("number of steps", steps as f64)?;
+    positive("number of amplitudes", amplitude.len() as f64)?;
+    positive("difference step", difference_step)?;
+    amplitude.iter().try_for_each(|&a| positive("amplitude", a))
 }
 
 /// Tolerances that are no numbers would let everything pass; infinite ones switch a demand off.
@@ -160,18 +168,18 @@ impl ElementCheck {
         element: &dyn Element,
         coords: &[[f64; 3]],
     ) -> Result<(), CheckFailure> {
-        counts(self.paths, self.steps)?;
+        path(
+            self.paths,
+            self.steps,
+            &self.amplitude,
+            self.difference_step,
+        )?;
         tolerances(&[
             ("tangent tolerance", self.tangent_tolerance),
             ("share of kinks", self.kink_share),
             ("rigid tolerance", self.rigid_tolerance),
             ("balance tolerance", self.balance_tolerance),
         ])?;
-        positive("number of amplitudes", self.amplitude.len() as f64)?;
-        positive("difference step", self.difference_step)?;
-        for &a in &self.amplitude {
-            positive("amplitude", a)?;
-        }
         if coords.is_empty() || coords.len() != element.nodes().len() {
             return Err(CheckFailure::Setting {
                 what: "number of coordinates",

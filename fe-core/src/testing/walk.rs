@@ -4,23 +4,19 @@ use super::difference::{Differences, Verdict, norm, ratio};
 use super::failure::{CheckFailure, Place, equal, finite};
 use super::random::Random;
 use super::settings::{MaterialCheck, MaterialReport};
-use super::together::together;
 use crate::kinematics::Kinematics;
 use crate::material::{Material, Operator, Response, state_labels};
-
-/// Shares of the step at which points are asked together: more than vectors are wide.
-const SHARES: [f64; 9] = [1.0, 0.0, 0.9, 0.5, 0.1, 0.7, 0.3, 0.8, 0.2];
 
 /// A law, its history, and the scales that tolerances refer to.
 #[derive(Debug)]
 pub(super) struct Walk<'a, K: Kinematics> {
-    law: &'a dyn Material<K>,
-    check: &'a MaterialCheck,
-    place: Place,
+    pub(super) law: &'a dyn Material<K>,
+    pub(super) check: &'a MaterialCheck,
+    pub(super) place: Place,
     random: Random,
     differences: Differences,
-    strain: K::Vector,
-    committed: Vec<f64>,
+    pub(super) strain: K::Vector,
+    pub(super) committed: Vec<f64>,
     /// Norm of the tangent of the virgin state.
     stiffness: f64,
     /// Largest stress so far.
@@ -29,9 +25,9 @@ pub(super) struct Walk<'a, K: Kinematics> {
 
 /// An answer with the state that was written beside it.
 #[derive(Debug)]
-struct Answer<K: Kinematics> {
-    response: Response<K>,
-    state: Vec<f64>,
+pub(super) struct Answer<K: Kinematics> {
+    pub(super) response: Response<K>,
+    pub(super) state: Vec<f64>,
 }
 
 impl<'a, K: Kinematics> Walk<'a, K> {
@@ -68,9 +64,7 @@ impl<'a, K: Kinematics> Walk<'a, K> {
     ) -> Result<(), CheckFailure> {
         self.place.step = step;
         let answer = self.repeatable(strain)?;
-        let points = SHARES.map(|share| self.between(strain, share));
-        let ctx = &self.check.context;
-        together(self.law, (&points, &self.committed), ctx, self.place)?;
+        self.together(strain)?;
         let largest = K::components(&answer.response.stress)
             .iter()
             .fold(0.0_f64, |m, s| m.max(s.abs()));
@@ -97,17 +91,8 @@ impl<'a, K: Kinematics> Walk<'a, K> {
         Ok(())
     }
 
-    /// The strain at a share of the step.
-    fn between(&self, strain: &K::Vector, share: f64) -> K::Vector {
-        let ends = K::components(&self.strain)
-            .iter()
-            .zip(K::components(strain));
-        let strain: Vec<f64> = ends.map(|(a, b)| a + share * (b - a)).collect();
-        K::vector(&strain)
-    }
-
     /// One update; `trial` holds `junk` before.
-    fn update(
+    pub(super) fn update(
         &self,
         strain: &K::Vector,
         operator: Operator,
@@ -304,7 +289,7 @@ impl<'a, K: Kinematics> Walk<'a, K> {
     }
 
     /// Stress and state of two answers agree to the last bit.
-    fn same(
+    pub(super) fn same(
         &self,
         first: &Answer<K>,
         second: &Answer<K>,
@@ -332,7 +317,7 @@ fn stress_label<K: Kinematics>(i: usize) -> String {
     format!("stress {}", K::STRESS_LABELS[i])
 }
 
-fn tangent_label<K: Kinematics>(k: usize) -> String {
+pub(super) fn tangent_label<K: Kinematics>(k: usize) -> String {
     let (i, j) = (k / K::LEN, k % K::LEN);
     format!(
         "operator d({})/d({})",
@@ -342,7 +327,7 @@ fn tangent_label<K: Kinematics>(k: usize) -> String {
 }
 
 /// Entries of a tangent by rows.
-fn entries<K: Kinematics>(tangent: &K::Tangent) -> Vec<f64> {
+pub(super) fn entries<K: Kinematics>(tangent: &K::Tangent) -> Vec<f64> {
     let n = K::LEN;
     (0..n * n)
         .map(|k| K::entry(tangent, k / n, k % n))

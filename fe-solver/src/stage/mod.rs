@@ -11,12 +11,12 @@ use fe_core::element::EvaluationContext;
 use fe_core::energy::{Change, Ledger};
 use fe_core::material::Operator;
 use fe_core::model::{Conditions, Model};
+use fe_core::sparsity::MatrixValues;
 use fe_core::state::StateStore;
 
 use crate::critical::Signs;
 use crate::error::SolverError;
 use crate::linear::{DirectSolver, Inertia, LinearError, LinearSolver};
-use fe_core::sparsity::MatrixValues;
 
 pub use measures::{LEAST_FORCE, LEAST_SCALE, Residual};
 
@@ -329,17 +329,26 @@ impl<'m> Stage<'m> {
         hand_over: impl FnOnce(&mut DirectSolver, &MatrixValues) -> Result<Option<Inertia>, LinearError>,
     ) -> Result<(), SolverError> {
         self.stable_tangent = false;
-        let (begin, before) = (Instant::now(), self.linear.stats().factorised);
-        let result = hand_over(&mut self.linear, &self.assembled.matrix);
-        self.times.factorise += begin.elapsed();
-        self.counters.factorisations += self.linear.stats().factorised - before;
+        let (result, time) = self.counted(hand_over);
+        self.times.factorise += time;
         if let Some(inertia) = result.map_err(|e| self.place(e))? {
             self.counters.negative_pivots = inertia.negative;
         }
         Ok(())
     }
 
-    /// The same, unless the factor at hand is that of this matrix.
+    /// What the linear solver does with the matrix, and how long it takes; counts what it factorises.
+    fn counted<T>(
+        &mut self,
+        work: impl FnOnce(&mut DirectSolver, &MatrixValues) -> T,
+    ) -> (T, Duration) {
+        let (begin, before) = (Instant::now(), self.linear.stats().factorised);
+        let result = work(&mut self.linear, &self.assembled.matrix);
+        self.counters.factorisations += self.linear.stats().factorised - before;
+        (result, begin.elapsed())
+    }
+
+    /// Factorises as [`Self::factorise`] does, unless the factor at hand is that of this matrix.
     fn inertia(&mut self) -> Result<(), SolverError> {
         self.factorised(|linear, matrix| linear.inertia(matrix).map(Some))
     }
@@ -360,10 +369,8 @@ impl<'m> Stage<'m> {
     ///
     /// [`SolverError::Singular`] or [`SolverError::Linear`].
     pub fn solve(&mut self, rhs: &mut [f64]) -> Result<(), SolverError> {
-        let (begin, before) = (Instant::now(), self.linear.stats().factorised);
-        let result = self.linear.solve_in_place(rhs);
-        self.counters.factorisations += self.linear.stats().factorised - before;
-        self.times.solve += begin.elapsed();
+        let (result, time) = self.counted(|linear, _| linear.solve_in_place(rhs));
+        self.times.solve += time;
         result.map_err(|e| self.place(e))
     }
 

@@ -14,8 +14,6 @@ mod sheets;
 mod watch;
 
 use std::cmp::Reverse;
-use std::collections::HashSet;
-use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use fe_solver::capacity::{Capacity, Verdict};
@@ -74,18 +72,11 @@ pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, Run
         queue.sort_by_key(|(dofs, _)| Reverse(*dofs));
     }
     let board = Board::new();
-    let started = Mutex::new(HashSet::new());
-    let exit = queue::run(&workers, &queue, |(_, specimen), worker| {
-        let mut names = started.lock().unwrap_or_else(PoisonError::into_inner);
-        names.insert(specimen.name.as_str());
-        drop(names);
+    let (exit, left) = queue::run(&workers, &queue, |(_, specimen), worker| {
         run(specimen, options, (&interrupt, &board, &worker.threads))
     })?;
-    let started = started.into_inner().unwrap_or_else(PoisonError::into_inner);
-    for specimen in specimens {
-        if exit == Exit::Interrupted && !started.contains(specimen.name.as_str()) {
-            board.print_result(&format!("{:<8}  not started", specimen.name));
-        }
+    for (_, specimen) in left {
+        board.print_result(&format!("{:<8}  not started", specimen.name));
     }
     Ok(exit)
 }

@@ -40,12 +40,12 @@ pub(super) fn workers(beams: usize, threads: usize) -> Result<Vec<Worker>, RunEr
 }
 
 /// Runs every item, in order of the queue; after an error or an interruption no other is started. The gravest
-/// exit, or the first error.
-pub(super) fn run<T: Sync>(
+/// exit and the items that were not started, or the first error.
+pub(super) fn run<'t, T: Sync>(
     workers: &[Worker],
-    items: &[T],
+    items: &'t [T],
     job: impl Fn(&T, &Worker) -> Result<Exit, RunError> + Sync,
-) -> Result<Exit, RunError> {
+) -> Result<(Exit, &'t [T]), RunError> {
     let state = Mutex::new((items.iter(), Ok(Exit::Done)));
     let next = || {
         let mut guard = state
@@ -73,10 +73,10 @@ pub(super) fn run<T: Sync>(
             });
         }
     });
-    let (_, result) = state
+    let (left, result) = state
         .into_inner()
         .unwrap_or_else(std::sync::PoisonError::into_inner);
-    result
+    Ok((result?, left.as_slice()))
 }
 
 #[cfg(test)]
@@ -103,11 +103,13 @@ mod tests {
     #[test]
     fn every_item_is_run_once() {
         let items: Vec<AtomicUsize> = (0..20).map(|_| AtomicUsize::new(0)).collect();
-        let exit = run(&workers(20, 2).unwrap(), &items, |item, _| {
+        let run = run(&workers(20, 2).unwrap(), &items, |item, _| {
             item.fetch_add(1, Ordering::Relaxed);
             Ok(Exit::StoppedEarly)
         });
-        assert_eq!(exit.unwrap(), Exit::StoppedEarly);
+        let (exit, left) = run.unwrap();
+        assert_eq!(exit, Exit::StoppedEarly);
+        assert!(left.is_empty());
         assert!(items.iter().all(|n| n.load(Ordering::Relaxed) == 1));
     }
 
@@ -118,7 +120,7 @@ mod tests {
             begun.fetch_add(1, Ordering::Relaxed);
             Ok(Exit::Interrupted)
         });
-        assert_eq!(exit.unwrap(), Exit::Interrupted);
+        assert_eq!(exit.unwrap(), (Exit::Interrupted, &[1, 2][..]));
         assert_eq!(begun.load(Ordering::Relaxed), 1);
     }
 }

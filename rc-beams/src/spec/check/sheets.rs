@@ -188,8 +188,11 @@ impl Checks<'_> {
         let half = self.half_width();
         let side = "gauges are on the side face, half of the width from its middle";
         self.within(format!("{path}.z_mm"), ("gauge", z), half..=half, side);
-        let covers = |p: &Patch| p.cover.face == Face::Side && p.holds(x, y);
-        if !patches.iter().any(covers) {
+        let on_sheet = |x, y| {
+            let mut sides = patches.iter().filter(|p| p.cover.face == Face::Side);
+            sides.any(|p| p.holds(x, y))
+        };
+        if !on_sheet(x, y) {
             self.report(
                 format!("{path}.x_mm"),
                 format!(
@@ -201,8 +204,7 @@ impl Checks<'_> {
         }
         let length = gauge.gauge_length_mm.get();
         for (x, y) in gauge.ends() {
-            let on_sheet = |p: &Patch| p.cover.face == Face::Side && p.holds(x, y);
-            if !patches.iter().any(on_sheet) {
+            if !on_sheet(x, y) {
                 self.report(
                     format!("{path}.gauge_length_mm"),
                     format!("a gauge of {length} mm ends at x = {x:.1} mm, y = {y:.1} mm, off the sheets; allowed: ends on sheets"),
