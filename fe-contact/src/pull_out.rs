@@ -17,6 +17,8 @@ use crate::limits::positive;
 /// | elastic and softening | (tau_max/lambda_2) \[(lambda_2/lambda_1) tanh(lambda_1 (L-a)) cos(lambda_2 a) + sin(lambda_2 a)\] |
 /// | peak: tanh(lambda_1 (L-a)) = (lambda_2/lambda_1) tan(lambda_2 a) | (tau_max/lambda_2) s_f/(s_f - s0) sin(lambda_2 a) |
 ///
+/// Lengths are positive (mm), `softened` at most the length; for others the formulas mean nothing, and may be NaN.
+///
 /// Source: H. Yuan, J. G. Teng, R. Seracino, Z. S. Wu and J. Yao, Engineering Structures 26 (2004) 553-565.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PullOut {
@@ -99,7 +101,7 @@ impl PullOut {
         (low, force, displacement)
     }
 
-    /// Effective length (mm): the bond length whose strength is `share` of [`Self::ultimate`]; 0.97 in Yuan et
+    /// Effective length (mm): the bond length whose strength is `share`, in (0, 1), of [`Self::ultimate`]; 0.97 in Yuan et
     /// al. (2004), 0.99 in Lu et al. (2005).
     ///
     /// lambda_2 a = asin(share sqrt((s_f - s0)/s_f)),

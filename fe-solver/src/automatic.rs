@@ -1,6 +1,7 @@
 //! Path control chosen by the state of the path.
 
 use fe_core::element::EvaluationContext;
+use fe_core::material::Operator;
 
 use crate::anderson::dot;
 use crate::critical::Signs;
@@ -271,6 +272,12 @@ impl Driver for Automatic {
         }
         if serves {
             self.length = request.length;
+        } else if let Ok(attempt) = &mut result {
+            // The trial state is to be that of the iterate that is returned, not of the last control that was tried.
+            stage.roll_back();
+            let (u, lambda) = (&attempt.displacement, attempt.lambda);
+            let r = stage.residual(u, lambda, &EvaluationContext::new(Operator::None))?;
+            attempt.residual = stage.measure(&r);
         }
         result
     }

@@ -100,6 +100,12 @@ impl Capacity {
             }),
         })
     }
+
+    /// Whether the load went down behind the peak, by [`DROP_FALL`] at least, or stayed there on a plateau. Otherwise the path
+    /// ends while the load may rise, and its largest load is a lower bound of the capacity.
+    pub fn is_reached(&self) -> bool {
+        self.post_peak_drop >= DROP_FALL || self.plateau
+    }
 }
 
 /// Why a path whose steps all meet the criterion may not be the only one: jumps and unstable equilibria among its points

@@ -165,7 +165,18 @@ impl StepControl {
             let attempt = self.attempt(stage, driver, (recorder, &mut heard), plan);
             match attempt {
                 Ok(mut attempt) if attempt.converged || may_flag => {
-                    let (signs, change) = self.measure(stage, &attempt)?;
+                    let (signs, change) = match self.measure(stage, &attempt) {
+                        Ok(measured) => measured,
+                        Err(e) if can_shorten && Self::may_recover(&e, stage) => {
+                            cut_back(stage);
+                            length = shorter;
+                            continue;
+                        }
+                        Err(e) => {
+                            stage.roll_back();
+                            return Err(e);
+                        }
+                    };
                     if driver.balances() && change.creates_energy() {
                         if can_shorten {
                             recorder.note(step, &creation(&change))?;

@@ -53,6 +53,23 @@ impl Default for DescentSettings {
     }
 }
 
+impl DescentSettings {
+    /// # Errors
+    ///
+    /// [`SolverError::Setting`] where no descent is possible.
+    pub(crate) fn check(&self) -> Result<(), SolverError> {
+        let (over, least, most) = (self.overshoot, self.least_factor, self.largest_factor);
+        let setting = SolverError::setting;
+        SolverError::positive("iterations of the descent", self.max_iterations as f64)?;
+        let fits = over.is_finite() && over >= 0.0;
+        setting(("overshoot of the descent", over), "[0, inf)", fits)?;
+        let fits = least > 0.0 && least <= 1.0;
+        setting(("least step factor of the descent", least), "(0, 1]", fits)?;
+        let fits = most.is_finite() && most >= 1.0;
+        setting(("largest step factor of the descent", most), "[1, inf)", fits)
+    }
+}
+
 /// Step factor below which the secant operator has been left behind and is rebuilt.
 const STALE: f64 = 0.5;
 /// Iterations a factor serves before that can happen.
@@ -102,9 +119,13 @@ impl Descent {
         Ok(descent)
     }
 
-    /// Goes on from where it was, after others have iterated from there.
-    pub(crate) const fn resume(&mut self) {
+    /// Goes on from where it was, after others have iterated from there, and perhaps left another operator.
+    pub(crate) const fn resume(&mut self, another_operator: bool) {
         self.reach = 1.0;
+        if another_operator {
+            self.age = 0;
+            self.stale = true;
+        }
     }
 
     /// Residual at `free` with the given operator.

@@ -135,6 +135,7 @@ impl Driver for NewtonRaphson {
         let mut reference = stage.reference_load();
         stage.solve(&mut reference)?;
         let mut iterations = 0;
+        let mut best: Option<(f64, Vec<f64>, f64)> = None;
         loop {
             let mut correction = residual.clone();
             stage.solve(&mut correction)?;
@@ -176,18 +177,29 @@ impl Driver for NewtonRaphson {
                 *d += factor * c;
             }
             let converged = size.relative <= request.criterion;
-            if converged || worse || iterations >= s.max_iterations || !size.relative.is_finite() {
+            let over = worse || iterations >= s.max_iterations || !size.relative.is_finite();
+            let nearer = best.take_if(|(nearest, ..)| !(size.relative < *nearest));
+            if converged || over {
+                let residual = match nearer {
+                    Some((_, at, load)) if !converged => {
+                        (u, lambda) = (at, load);
+                        let r = stage.residual(&u, lambda, &force)?;
+                        stage.measure(&r)
+                    }
+                    _ => size,
+                };
                 return Ok(Attempt {
                     displacement: u,
                     lambda,
                     converged,
-                    residual: size,
+                    residual,
                     iterations,
                     held: false,
                     means: None,
                     lag: None,
                 });
             }
+            best = nearer.or_else(|| Some((size.relative, u.clone(), lambda)));
             stage.latch();
             let slow = match s.refactor {
                 Refactor::Always => true,

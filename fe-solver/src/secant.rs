@@ -37,6 +37,16 @@ impl Default for SecantSettings {
     }
 }
 
+impl SecantSettings {
+    fn check(&self) -> Result<(), SolverError> {
+        SolverError::positive(
+            "iterations of the secant iteration",
+            self.max_iterations as f64,
+        )?;
+        self.descent.check()
+    }
+}
+
 /// Modified secant iteration with Anderson acceleration.
 ///
 /// From the extrapolated displacement one factor serves the iterations of the step, one force evaluation and one
@@ -271,6 +281,7 @@ impl SecantAnderson {
             near = AGAIN * residual.relative;
             let free = descent.free.clone();
             let start = Start::Known(descent.residual.clone());
+            let passed = stage.state().base_changes();
             let solve = self.solve(stage, free, start, lambda, criterion, log)?;
             spent += solve.iterations;
             if let Some(residual) = solve.converged {
@@ -281,8 +292,16 @@ impl SecantAnderson {
                     collapsed: false,
                 });
             }
-            descent.resume();
+            // Cracks that opened on the way of a rejected solve have not opened.
+            stage.set_base(&passed);
+            descent.resume(self.rebuilds(solve.iterations));
         }
+    }
+
+    /// Whether a solve of so many iterations, begun with the factor at hand, has replaced it.
+    const fn rebuilds(&self, iterations: usize) -> bool {
+        let after = self.settings.rebuild_after;
+        after > 0 && iterations >= after
     }
 
     /// Share of the accepted load lost in the last evaluation; not a number where the load factor drives forces only.
@@ -314,11 +333,13 @@ impl Driver for SecantAnderson {
             criterion,
             last_resort,
         } = request;
+        self.settings.check()?;
         let lambda = stage.lambda() + length;
         let (first, start) = Self::start(stage, length)?;
         let mut solve = self.solve(stage, first, start, lambda, criterion, log)?;
         let mut iterations = solve.iterations;
         let held = solve.converged.is_none() && (last_resort || solve.relative < NEAR);
+        let before = held.then(|| stage.state().base_changes());
         let snap = if held {
             let nearest = (solve.relative < NEAR).then(|| solve.free.clone());
             Some(self.pass_snap(stage, nearest, lambda, criterion, last_resort, log)?)
@@ -334,7 +355,13 @@ impl Driver for SecantAnderson {
                 s.residual
             }
             (None, Some(residual)) => residual,
-            _ => Self::check(stage, &solve.free, lambda)?,
+            _ => {
+                // What a rejected snap went through has not happened.
+                if let Some(before) = before {
+                    stage.set_base(&before);
+                }
+                Self::check(stage, &solve.free, lambda)?
+            }
         };
         // A snap that loses load is placed by shorter steps before it is passed.
         let placed = !held || last_resort || Self::loss(stage) < DROP_FALL;

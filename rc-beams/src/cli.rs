@@ -103,13 +103,17 @@ fn check(files: &[String]) -> Result<Exit, Shown> {
     let mut bad = 0;
     let mut gravest = Exit::Done;
     for file in files {
-        match load(file) {
+        let checked = load(file).map_err(show_all).and_then(|specimen| {
+            run::buildable(&specimen).map_err(|error| show(error.exit(), error))?;
+            Ok(specimen)
+        });
+        match checked {
             Ok(specimen) => {
                 print(format!("{file}: ok, beam {}\n", specimen.name))?;
             }
-            Err(errors) => {
+            Err(Shown(exit)) => {
                 bad += 1;
-                gravest = gravest.max(show_all(errors).0);
+                gravest = gravest.max(exit);
             }
         }
     }

@@ -156,6 +156,7 @@ impl Places {
     fn new(pattern: &Sparsity, equations: &[u32], begins: &[u32]) -> Self {
         let n = equations.len();
         let mut places = vec![NONE; n * n];
+        let mut twice = Vec::new();
         for i in 0..n {
             for j in i..n {
                 let (row, column) = (equations[i], equations[j]);
@@ -170,7 +171,15 @@ impl Places {
                 } else {
                     (begins[j], 0)
                 };
-                places[i * n + j] = position.map_or(NONE, |p| (p as u32 - begin) | above);
+                let place = position.map_or(NONE, |p| (p as u32 - begin) | above);
+                places[i * n + j] = place;
+                if i != j && row == column && place != NONE {
+                    twice.push(Entry {
+                        place: place | ABOVE,
+                        row: i as u16,
+                        column: j as u16,
+                    });
+                }
             }
         }
         let mut found = Self {
@@ -183,6 +192,8 @@ impl Places {
                 found.take(&mut places, (i, j), n);
             }
         }
+        // Where an element has an equation twice, (j, i) goes to the same entry of the diagonal.
+        found.single.append(&mut twice);
         found
     }
 

@@ -22,3 +22,4 @@ pub use objective::Objective;
 pub use ottosen::{Calibration, Ottosen};
 pub use reference::{Reference, ReferenceParameters, ShearRetention, TensionStiffening};
 pub use scalars::ConcreteScalars;
+pub(crate) use scalars::{STRENGTH_MARGIN, peak_strain};

@@ -7,7 +7,7 @@ use crate::limits::out_of_range;
 const LAW: &str = "concrete properties";
 
 /// fcm - fck (MPa) (fib Model Code 2010, 5.1-1).
-const STRENGTH_MARGIN: f64 = 8.0;
+pub(crate) const STRENGTH_MARGIN: f64 = 8.0;
 
 /// Characteristic strengths that the tables below cover (MPa). From 8 to 12 MPa, below the first class of
 /// the Code, the tabulated strains keep their value at 12 MPa (assumed).
@@ -98,7 +98,7 @@ impl ConcreteScalars {
             fctm_mpa,
             young_mpa: 21_500.0 * (fcm_mpa / 10.0).cbrt(),
             poisson: 0.2,
-            eps_c1: interpolate(&PEAK_STRAIN, fck_mpa),
+            eps_c1: peak_strain(fck_mpa),
             eps_c_lim: interpolate(&LIMIT_STRAIN, fck_mpa),
             fracture_energy: 0.073 * fcm_mpa.powf(0.18),
         })
@@ -137,6 +137,12 @@ impl ConcreteScalars {
     pub fn shear_modulus(&self) -> f64 {
         self.young_mpa / (2.0 * (1.0 + self.poisson))
     }
+}
+
+/// Strain eps_c1 (-) at the mean strength of the concrete of characteristic strength fck (MPa) (fib Model Code 2010, table
+/// 5.1-8); outside the table that of its nearer end.
+pub(crate) fn peak_strain(fck_mpa: f64) -> f64 {
+    interpolate(&PEAK_STRAIN, fck_mpa)
 }
 
 /// Linear interpolation in a table of ascending abscissae; constant outside.

@@ -148,7 +148,7 @@ impl FixedCrack {
         state: &State,
         ctx: &PointContext,
     ) -> Option<f64> {
-        let envelopes = self.envelopes(ctx.band_width).ok()?;
+        let envelopes = self.envelopes(ctx).ok()?;
         let tension = self.tension(state, &envelopes, ctx.band_width).ok()?;
         let compression = &envelopes.compression;
         let mut state = *state;

@@ -54,6 +54,8 @@ use fe_core::principal::{Principal, principal, principal_of_many};
 use fe_core::voigt::{strain_components, strain_into, strain_tensor};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
+use crate::concrete::{STRENGTH_MARGIN, peak_strain};
+
 pub use compression_softening::CompressionSoftening;
 pub use confinement::Confinement;
 pub use curves::TensionSoftening;
@@ -117,7 +119,7 @@ pub const AGGREGATE_MM: f64 = 19.0;
 impl FixedCrackParameters {
     /// Parameters from a mean cylinder strength and a measured modulus.
     ///
-    /// eps_c1 = 0.0021 + 1.2e-5 (fcm - 28)+ (fit of fib Model Code 2010, table 5.1-8);
+    /// eps_c1 as in fib Model Code 2010, table 5.1-8, for fck = fcm - 8, linear between its entries;
     /// G_F = 0.073 fcm^0.18 (fib Model Code 2010, 5.1-9); G_c = 250 G_F (Nakamura and Higai 2001).
     pub fn from_strength(fcm_mpa: f64, ft_mpa: f64, young_mpa: f64) -> Self {
         let fracture_energy = 0.073 * fcm_mpa.powf(0.18);
@@ -126,7 +128,7 @@ impl FixedCrackParameters {
             poisson: 0.2,
             fcm_mpa,
             ft_mpa,
-            eps_c1: 0.0021 + 1.2e-5 * (fcm_mpa - 28.0).max(0.0),
+            eps_c1: peak_strain(fcm_mpa - STRENGTH_MARGIN),
             fracture_energy,
             crushing_energy: 250.0 * fracture_energy,
             shear_floor: 1e-4,
@@ -340,9 +342,13 @@ impl FixedCrack {
         [onset / self.p.young_mpa, other, other]
     }
 
-    fn envelopes(&self, band_width: f64) -> Result<Envelopes, MaterialError> {
+    fn envelopes(&self, ctx: &PointContext) -> Result<Envelopes, MaterialError> {
+        let (band_width, relaxation) = (ctx.band_width, ctx.relaxation);
         if !(band_width.is_finite() && band_width > 0.0) {
             return Err(out_of_range("band_width", band_width, "mm", "(0, inf)"));
+        }
+        if !(0.0..=1.0).contains(&relaxation) {
+            return Err(out_of_range("relaxation", relaxation, "-", "[0, 1]"));
         }
         Ok(Envelopes {
             tension: Tension::new(&self.p, self.p.ft_mpa, band_width)?,
@@ -390,7 +396,7 @@ impl Material<Solid> for FixedCrack {
         trial: &mut [f64],
         ctx: &PointContext,
     ) -> Result<Response<Solid>, MaterialError> {
-        let envelopes = self.envelopes(ctx.band_width)?;
+        let envelopes = self.envelopes(ctx)?;
         let mut response = blank();
         let states = (committed, trial);
         self.respond(strain, states, ctx, (&envelopes, None), &mut response)?;
@@ -405,7 +411,7 @@ impl Material<Solid> for FixedCrack {
         ctx: &PointContext,
         take: &mut dyn FnMut(usize, &Response<Solid>),
     ) -> Result<(), (usize, MaterialError)> {
-        let envelopes = self.envelopes(ctx.band_width).map_err(|error| (0, error))?;
+        let envelopes = self.envelopes(ctx).map_err(|error| (0, error))?;
         let n = self.state_len();
         let state = |p: usize| p * n..(p + 1) * n;
         let mut response = blank();
@@ -433,7 +439,7 @@ impl Material<Solid> for FixedCrack {
     }
 
     fn admit(&self, ctx: &PointContext) -> Result<(), MaterialError> {
-        self.envelopes(ctx.band_width).map(drop)
+        self.envelopes(ctx).map(drop)
     }
 
     fn unsymmetric_tangent(&self) -> bool {

@@ -405,6 +405,14 @@ fn impossible_parameters_and_bands_are_refused() {
             })
         ));
     }
+    for relaxation in [f64::NAN, -0.1, 1.1] {
+        let ctx = PointContext {
+            relaxation,
+            ..PointContext::new(50.0)
+        };
+        let refused = law(0.2).admit(&ctx).unwrap_err();
+        assert!(refused.to_string().contains("relaxation"), "{refused}");
+    }
     let limit = match law(0.2).admit(&PointContext::new(1e4)) {
         Err(MaterialError::BandTooWide { limit, .. }) => limit,
         other => panic!("{other:?}"),

@@ -3,7 +3,7 @@
 use fe_core::kinematics::Solid;
 use fe_core::material::{Operator, PointContext, Response};
 use fe_core::principal::Principal;
-use fe_core::voigt::{SHEAR_PAIRS, strain_transform, stress_along};
+use fe_core::voigt::{SHEAR_PAIRS, isotropic, strain_transform, stress_along};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use super::confinement::Pressed;
@@ -57,6 +57,11 @@ impl FixedCrack {
         }
         out.stress = stress_along(&axes, &stress);
         if ctx.operator != Operator::None {
+            if equivalent.min() >= 0.0 {
+                // Nothing is compressed: linear elasticity, whatever the axes.
+                out.tangent = isotropic(self.p.young_mpa, nu);
+                return true;
+            }
             let t = strain_transform(&axes);
             let mut d = Matrix6::zeros();
             let q = |i, j| if i == j { q1 } else { q2 };

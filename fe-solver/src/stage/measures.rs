@@ -127,7 +127,8 @@ impl Stage<'_> {
 
     /// Signs of the symmetric part (K + K^T)/2 of the consistent tangent at `u`: no negative pivots in
     /// an equilibrium that is stable under the constraints of the stage (positive second-order work, Hill
-    /// 1958). A tangent that is singular counts as one.
+    /// 1958). A tangent that is singular counts as many as the one before,
+    /// and one at least.
     ///
     /// Histories grow by the share `relaxation`, 1 without viscosity. The trial state is that of `u`, which is to be
     /// accepted; the factor replaces that of the driver.
@@ -157,7 +158,8 @@ impl Stage<'_> {
             Err(e) => return Err(e),
         };
         if singular {
-            self.counters.negative_pivots = 1;
+            // Nothing has become stable again.
+            self.counters.negative_pivots = self.signs.negative.max(1);
         }
         let negative = self.counters.negative_pivots;
         self.stable_tangent = negative == 0;

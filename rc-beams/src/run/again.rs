@@ -36,33 +36,43 @@ impl Observer for Silent<'_> {
     }
 }
 
+/// The largest load of a run.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Peak {
+    /// Load (kN).
+    pub kn: f64,
+    /// Whether it is a peak; otherwise the path ended before, and it is a lower bound.
+    pub reached: bool,
+}
+
 /// How far the peak (kN) moves with half the steps, and with half as many elements again along and up; none when the run was
-/// interrupted or a variation has no peak.
+/// interrupted or the path of a variation ended before its peak.
 pub(super) fn numerical_error(
     peak_kn: f64,
     (specimen, settings, stepping): (&Specimen, &ModelSettings, &Stepping),
     options: &RunOptions,
     interrupt: &Interrupt,
 ) -> Result<Option<NumericalError>, RunError> {
-    let halved = peak_kn_of(specimen, settings, &stepping.halved(), options, interrupt)?;
+    let halved = peak_of(specimen, settings, &stepping.halved(), options, interrupt)?;
     let MeshSize { nx, ny, nz } = settings.mesh;
     let [nx, ny] = [nx, ny].map(|n| (REFINEMENT * n as f64).ceil() as usize);
     let mesh = MeshSize { nx, ny, nz };
     let finer = ModelSettings { mesh, ..*settings };
-    let peak = peak_kn_of(specimen, &finer, stepping, options, interrupt)?;
-    let peaks = halved.zip(peak);
-    Ok(peaks
-        .map(|(halved, peak)| NumericalError::new(peak_kn, halved, (peak, finer.mesh.to_string()))))
+    let peak = peak_of(specimen, &finer, stepping, options, interrupt)?;
+    let peaks = halved.zip(peak).filter(|(a, b)| a.reached && b.reached);
+    Ok(peaks.map(|(halved, peak)| {
+        NumericalError::new(peak_kn, halved.kn, (peak.kn, finer.mesh.to_string()))
+    }))
 }
 
-/// Peak load (kN) with the given settings and steps; none when the run was interrupted.
-pub(super) fn peak_kn_of(
+/// Peak with the given settings and steps; none when the run was interrupted.
+pub(super) fn peak_of(
     specimen: &Specimen,
     settings: &ModelSettings,
     stepping: &Stepping,
     options: &RunOptions,
     interrupt: &Interrupt,
-) -> Result<Option<f64>, RunError> {
+) -> Result<Option<Peak>, RunError> {
     let beam = build(specimen, settings)?;
     let staging = specimen.staged.as_ref().map(|staged| Staging {
         specimen,
@@ -89,7 +99,10 @@ pub(super) fn peak_kn_of(
         }
     };
     let capacity = Capacity::of(&outcome.path).filter(|_| !interrupt.is_set());
-    Ok(capacity
-        .and_then(|c| outcome.path.get(c.peak))
-        .map(|p| p.load))
+    Ok(capacity.and_then(|c| {
+        Some(Peak {
+            kn: outcome.path.get(c.peak)?.load,
+            reached: c.is_reached(),
+        })
+    }))
 }

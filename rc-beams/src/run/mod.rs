@@ -22,7 +22,7 @@ use fe_solver::error::SolverError;
 use crate::analysis::{AnalysisError, Outcome, Staging, analyse};
 use crate::build::{Beam, ModelSettings};
 use crate::exit::Exit;
-use crate::options::{Bond, RunOptions};
+use crate::options::{Bond, Preset, RunOptions};
 use crate::output;
 use crate::results::checkpoint::{Checkpoint, CheckpointError};
 use crate::results::error::ResultsError;
@@ -30,6 +30,7 @@ use crate::results::evidence::{Layout, Snapshot};
 use crate::results::folder::Folder;
 use crate::results::interrupt::Interrupt;
 use crate::results::mode::Diagnosis;
+use crate::results::mode::strengthened::BOND_GOVERNS;
 use crate::results::progress::Board;
 use crate::results::resources::Resources;
 use crate::results::sheets::{MapState, SheetDrop};
@@ -79,6 +80,11 @@ pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, Run
         board.print_result(&format!("{:<8}  not started", specimen.name));
     }
     Ok(exit)
+}
+
+/// Whether the model of a specimen can be built with the default options: what laws and elements refuse comes out here.
+pub(crate) fn buildable(specimen: &Specimen) -> Result<(), RunError> {
+    build(specimen, &ModelSettings::new(Preset::default(), specimen)).map(drop)
 }
 
 fn build(specimen: &Specimen, settings: &ModelSettings) -> Result<Beam, RunError> {
@@ -174,7 +180,8 @@ fn run(
     let (stop_reason, exit) = end(&outcome, interrupt);
     let kept = kept(&stop_reason, exit, &folder);
     let capacity = Capacity::of(&outcome.path);
-    let numerical_error = match capacity.and_then(|c| outcome.path.get(c.peak)) {
+    let reached = capacity.filter(Capacity::is_reached);
+    let numerical_error = match reached.and_then(|c| outcome.path.get(c.peak)) {
         Some(peak) if options.band => {
             let run = (specimen, &settings, &stepping);
             again::numerical_error(peak.load, run, options, interrupt)?
@@ -207,13 +214,16 @@ fn run(
     let at_end = outcome.fallen.as_ref().unwrap_or(&outcome.last);
     let last = evidence::snapshot(beam, at_end)?;
     let ratio = match &beam.sheets {
-        Some(_) if options.counterfactual => {
+        Some(_) if options.counterfactual && capacity.is_reached() => {
             let perfect = ModelSettings {
                 bond: Bond::Perfect,
                 ..settings
             };
-            let peak = again::peak_kn_of(specimen, &perfect, &stepping, options, interrupt)?;
-            peak.map(|perfect| perfect / figures.peak_load_kn)
+            let peak = again::peak_of(specimen, &perfect, &stepping, options, interrupt)?;
+            // A lower bound proves that bond governs, never that it does not.
+            let told = peak.map(|p| (p.kn / figures.peak_load_kn, p.reached));
+            told.filter(|(ratio, reached)| *reached || *ratio >= BOND_GOVERNS)
+                .map(|(ratio, _)| ratio)
         }
         _ => None,
     };
@@ -250,7 +260,7 @@ fn run(
     wall.total = begin.elapsed().as_secs_f64();
     let test = specimen.test.as_ref().map(|t| t.load_kn.get());
     let summary = Summary {
-        ratio_model_to_test: test.map(|t| figures.peak_load_kn / t),
+        ratio_model_to_test: reached.and(test).map(|t| figures.peak_load_kn / t),
         test_load_kn: test,
         setup,
         work,
@@ -270,10 +280,14 @@ fn run(
     if over(exit) {
         Checkpoint::remove(&folder)?;
     }
-    board.print_result(&match exit {
-        Exit::Done => summary.line(),
-        _ => format!("{}  {kept}", summary.line()),
-    });
+    let mut line = summary.line();
+    if options.band && summary.numerical_error.is_none() {
+        line += "  no error bar, for not all paths go beyond a peak";
+    }
+    if exit != Exit::Done {
+        line = format!("{line}  {kept}");
+    }
+    board.print_result(&line);
     Ok(exit)
 }
 
