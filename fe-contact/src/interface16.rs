@@ -115,7 +115,7 @@ impl Interface16 {
     ///
     /// # Errors
     ///
-    /// [`ElementError::Jacobian`] for a face without area, [`ElementError::Input`] for a direction that is
+    /// [`ElementError::Jacobian`] for a face without area or that folds over, [`ElementError::Input`] for a direction that is
     /// normal to it, or [`ElementError::Material`] when the law refuses the point.
     pub fn new(
         nodes: [NodeId; 16],
@@ -124,21 +124,21 @@ impl Interface16 {
         rule: InterfaceRule,
         law: Arc<dyn Material<Interface>>,
     ) -> Result<Self, ElementError> {
+        let (_, slopes) = quad8::shape([0.0; 2]);
+        let [along, across] = tangents(coords, &slopes);
+        let middle = along.cross(&across);
         let mut points = Vec::new();
         for (point, (xi, w)) in rule.points().into_iter().enumerate() {
             let (values, slopes) = quad8::shape(xi);
             let mut position = Vector3::zeros();
-            let mut along = [Vector3::zeros(); 2];
-            for a in 0..8 {
-                let x = Vector3::from(coords[a]);
-                position += values[a] * x;
-                along[0] += slopes[a][0] * x;
-                along[1] += slopes[a][1] * x;
+            for (n, x) in values.iter().zip(coords) {
+                position += *n * Vector3::from(*x);
             }
-            let normal = along[0].cross(&along[1]);
+            let [along, across] = tangents(coords, &slopes);
+            let normal = along.cross(&across);
             let determinant = normal.norm();
-            let scale = along[0].norm() * along[1].norm();
-            if determinant.is_nan() || determinant <= 1e-9 * scale {
+            let scale = along.norm() * across.norm();
+            if determinant.is_nan() || determinant <= 1e-9 * scale || normal.dot(&middle) <= 0.0 {
                 return Err(ElementError::Jacobian { point, determinant });
             }
             points.push(Point {
@@ -163,6 +163,14 @@ impl Interface16 {
     pub fn law(&self) -> &Arc<dyn Material<Interface>> {
         &self.law
     }
+}
+
+/// Derivatives of the position (mm) along the two natural coordinates.
+fn tangents(coords: &[[f64; 3]; 8], slopes: &[[f64; 2]; 8]) -> [Vector3<f64>; 2] {
+    [0, 1].map(|k| {
+        let terms = slopes.iter().zip(coords);
+        terms.map(|(s, x)| s[k] * Vector3::from(*x)).sum()
+    })
 }
 
 /// Adds the blocks of the stiffness: minus between the faces, plus within each.

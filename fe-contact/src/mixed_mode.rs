@@ -108,7 +108,7 @@ impl MixedMode {
         let law = Self { p, onset };
         for share in (0..=100).map(|i| f64::from(i) / 100.0) {
             let branch = law.branch(share);
-            if branch.end <= branch.onset {
+            if !(branch.end > branch.onset) {
                 return Err(out_of_range(
                     LAW,
                     "stiffness_mpa_per_mm",

@@ -9,7 +9,7 @@ use fe_core::material::{
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use crate::envelope::Envelope;
-use crate::limits::finite;
+use crate::limits::{finite, positive};
 use crate::normal::{BondSettings, Normal};
 
 /// Least 1 - d of the secant operator; does not enter the stress.
@@ -55,10 +55,14 @@ impl SlipDamage {
     ///
     /// # Errors
     ///
-    /// [`MaterialError::Parameter`] for settings out of range.
+    /// [`MaterialError::Parameter`] for settings out of range, or an initial stiffness of the curve that is not positive.
     pub fn new(envelope: impl Envelope, settings: BondSettings) -> Result<Self, MaterialError> {
         settings.check(envelope.name())?;
         let stiffness = envelope.stiffness();
+        positive(
+            envelope.name(),
+            &[("stiffness of the curve", stiffness, "MPa/mm")],
+        )?;
         Ok(Self {
             envelope: Arc::new(envelope),
             settings,

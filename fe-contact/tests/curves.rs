@@ -133,6 +133,20 @@ fn ribbed(bond: Bond, confinement: Confinement) -> ModelCode {
     .unwrap()
 }
 
+/// A strength in Pa splits the bond within the chord at the beginning of the curve: it is refused.
+#[test]
+fn a_strength_in_another_unit_is_refused() {
+    for fcm_mpa in [30e3, 30e6, f64::NAN, 0.0] {
+        let refused = ModelCode::new(&ModelCodeParameters {
+            fcm_mpa,
+            rib_spacing_mm: 8.0,
+            bond: Bond::Good,
+            confinement: Confinement::None,
+        });
+        assert!(refused.unwrap_err().to_string().contains("fcm_mpa"));
+    }
+}
+
 /// fib Model Code 2010, table 6.1-1, with f_cm = 36 MPa and ribs 8 mm apart.
 #[test]
 fn bond_of_ribbed_bars() {

@@ -186,6 +186,15 @@ fn impossible_faces_and_directions_are_refused() {
         new(line, [1.0, 0.0, 0.0]),
         Err(ElementError::Jacobian { .. })
     ));
+    let mut folded = flat();
+    for k in 0..3 {
+        // The middle of the first side lies beyond its end.
+        folded[4][k] = 1.2 * folded[1][k] - 0.2 * folded[0][k];
+    }
+    assert!(matches!(
+        new(folded, [1.0, 0.0, 0.0]),
+        Err(ElementError::Jacobian { .. })
+    ));
     for direction in [[0.0, 0.0, 1.0], [0.0; 3], [f64::NAN, 0.0, 0.0]] {
         assert!(matches!(
             new(flat(), direction),

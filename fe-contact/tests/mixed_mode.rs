@@ -140,3 +140,15 @@ fn impossible_parameters_are_refused() {
         }
     }
 }
+
+/// Strengths so small that the branch is lost in rounding are refused, as those that leave no softening are.
+#[test]
+fn a_branch_that_is_no_number_is_refused() {
+    for normal_strength_mpa in [1e-200, 1e200] {
+        let parameters = MixedModeParameters {
+            normal_strength_mpa,
+            ..P
+        };
+        assert!(MixedMode::new(parameters).is_err());
+    }
+}

@@ -175,7 +175,8 @@ impl MaterialError {
 ///
 /// - `update` reads `committed`, writes **all** of `trial`, and touches nothing else; called twice
 ///   with the same input it gives the same output.
-/// - At the same strain, from the state it has just written, it gives the same stress again.
+/// - At the same strain, from the state it has just written, it gives the same stress again, unless its histories lag
+///   ([`PointContext::relaxation`] below 1, or a viscosity of its own).
 /// - `Operator::Tangent` is the derivative of the stress this very update returns, once what the step
 ///   [latches](Material::latch) is held; `Operator::Secant` is symmetric positive definite.
 ///

@@ -44,6 +44,14 @@ pub enum ModelError {
         /// Nodes there are.
         nodes: usize,
     },
+    /// An element is built on a node that follows another.
+    #[error("element {element} has node {node}, which follows another: build it on leaders")]
+    OnFollower {
+        /// Index of the element.
+        element: usize,
+        /// Its node.
+        node: NodeId,
+    },
     /// A part of the model can move as a rigid body.
     #[error(
         "the part of {nodes} nodes with node {node} at {position:?} mm can {motion}: support it, or connect it to the rest"
@@ -133,13 +141,19 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// [`ModelError::NoSuchNode`] for an element on a node that the mesh does not have.
+    /// [`ModelError::NoSuchNode`] for an element on a node that the mesh does not have, [`ModelError::OnFollower`] for one on a
+    /// follower.
     pub fn with_followers(
         mesh: Mesh,
         elements: Vec<Box<dyn Element>>,
         followers: Followers,
     ) -> Result<Self, ModelError> {
         let dofs = DofMap::new(&mesh, &elements)?;
+        for (element, e) in elements.iter().enumerate() {
+            if let Some(&node) = e.nodes().iter().find(|&&n| followers.of(n).0 != n) {
+                return Err(ModelError::OnFollower { element, node });
+            }
+        }
         Ok(Self {
             mesh,
             elements,
@@ -331,7 +345,8 @@ impl Conditions {
             .try_for_each(|&node| self.fix(model, node, dof))
     }
 
-    /// Moves a DOF by `rate` (mm) per unit of the load factor.
+    /// Moves a DOF by `rate` (mm) per unit of the load factor. Of two conditions on one DOF, fixings included, the later one
+    /// counts.
     ///
     /// # Errors
     ///

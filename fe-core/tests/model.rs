@@ -8,6 +8,7 @@ use common::{Brick, Damage, Flaw, Truss};
 use fe_core::assembly::Assembler;
 use fe_core::dof::Dof;
 use fe_core::element::Element;
+use fe_core::followers::Followers;
 use fe_core::grid::GridBuilder;
 use fe_core::mesh::{Block, CellKind, Mesh, MeshError};
 use fe_core::model::{Conditions, Model, ModelError};
@@ -192,6 +193,22 @@ fn an_element_on_a_node_that_is_not_there_is_refused() {
     assert_eq!(
         Model::new(mesh, vec![Box::new(bar)]).unwrap_err(),
         ModelError::NoSuchNode { node: 2, nodes: 2 }
+    );
+}
+
+/// Conditions on a follower go to its leader; an element on it would have DOFs that nothing holds.
+#[test]
+fn an_element_on_a_follower_is_refused() {
+    let places = [[0.0; 3], [0.0, 0.0, 5.0]];
+    let bar = Truss::new([0, 1], &places, Arc::new(Damage(Flaw::None)), Flaw::None);
+    let mesh = Mesh::new(places.to_vec()).unwrap();
+    let followers = Followers::uniform_across(&mesh, [0, 1]);
+    assert_eq!(
+        Model::with_followers(mesh, vec![Box::new(bar)], followers).unwrap_err(),
+        ModelError::OnFollower {
+            element: 0,
+            node: 0
+        }
     );
 }
 

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use fe_core::element::{Element, ElementError};
+use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext};
 
 use crate::seen::{Seen, View};
 
@@ -49,5 +49,22 @@ impl Installed {
 impl View for Offset {
     fn own<'a>(&self, u: &'a [f64]) -> Cow<'a, [f64]> {
         u.iter().zip(&self.0).map(|(u, o)| u - o).collect()
+    }
+
+    /// Without one of its own, (1/2) f . (u - u_0) with the forces f of that state.
+    fn free_energy(&self, element: &dyn Element, u: &[f64], state: &[f64]) -> Option<f64> {
+        let own = self.own(u);
+        element.free_energy(&own, state).or_else(|| {
+            let (mut force, mut trial) = (vec![0.0; own.len()], state.to_vec());
+            let out = ElementSystem {
+                force: &mut force,
+                stiffness: &mut [],
+            };
+            let frozen = EvaluationContext::frozen();
+            element
+                .evaluate(&own, state, &mut trial, &frozen, out)
+                .ok()?;
+            Some(force.iter().zip(own.iter()).map(|(f, u)| 0.5 * f * u).sum())
+        })
     }
 }

@@ -44,14 +44,27 @@ impl Led {
     /// functions `held`; itself where it does not have that node.
     ///
     /// Meant for displacements: rotations are interpolated likewise.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Input`] unless the shape functions sum to 1.
     pub fn hung(
         element: Box<dyn Element>,
         node: NodeId,
         held: &[(NodeId, f64)],
-    ) -> Box<dyn Element> {
+    ) -> Result<Box<dyn Element>, ElementError> {
+        let sum: f64 = held.iter().map(|(_, n)| n).sum();
+        if !((sum - 1.0).abs() <= 1e-6) {
+            return Err(ElementError::Input {
+                what: "sum of the shape functions that hold a node".into(),
+                value: sum,
+                allowed: "1".into(),
+                remedy: "give the values of all shape functions at the place of the node".into(),
+            });
+        }
         let own = element.nodes();
         if !own.contains(&node) {
-            return element;
+            return Ok(element);
         }
         let mut nodes: Vec<NodeId> = own.iter().copied().filter(|&n| n != node).collect();
         for (n, _) in held {
@@ -78,7 +91,7 @@ impl Led {
             entries,
             begins,
         };
-        Box::new(Self { element, view })
+        Ok(Box::new(Self { element, view }))
     }
 }
 

@@ -151,7 +151,7 @@ fn updates_and_elements_allocate_nothing_and_factorisations_keep_nothing() {
         let law = Arc::clone(&law);
         Box::new(Hex20::new(nodes, &coords, HexRule::Full, law, BandWidth::CubeRoot).unwrap())
     };
-    let hung = Led::hung(hexahedron(), 19, &[(20, 0.5), (21, 0.5)]);
+    let hung = Led::hung(hexahedron(), 19, &[(20, 0.5), (21, 0.5)]).unwrap();
     assert_eq!(element_allocations(hexahedron().as_ref()), 0, "hexahedron");
     assert_eq!(element_allocations(hung.as_ref()), 0, "hung hexahedron");
     let kept = kept_by_factorisations();

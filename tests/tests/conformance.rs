@@ -119,7 +119,7 @@ fn slipping_bars() {
             let mut element: Box<dyn Element> =
                 Box::new(hosts.slipping(&bar, piece, [20, 21, 22]).unwrap());
             if hung {
-                element = Led::hung(element, 20, &held);
+                element = Led::hung(element, 20, &held).unwrap();
             }
             let places: Vec<_> = element.nodes().iter().map(|&n| coords[n]).collect();
             let check = ElementCheck {

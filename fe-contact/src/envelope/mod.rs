@@ -29,8 +29,8 @@ pub trait Envelope: Debug + Send + Sync + 'static {
     /// Slip s0 (mm) at which it is reached.
     fn peak_slip(&self) -> f64;
 
-    /// Slip s_f (mm) at which the bond counts as lost: where the stress ends, or has fallen to one
-    /// hundredth of tau_max on a curve that only approaches zero.
+    /// Slip s_f (mm) at which the bond counts as lost: where the stress ends, has fallen to one hundredth of tau_max on a curve
+    /// that only approaches zero, or to the friction that is left on a curve that ends in friction.
     fn final_slip(&self) -> f64;
 
     /// Fracture energy G_f (N/mm): the area under the whole curve; infinite for one with residual stress.

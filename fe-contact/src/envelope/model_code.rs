@@ -89,7 +89,8 @@ impl ModelCode {
     ///
     /// # Errors
     ///
-    /// [`MaterialError::Parameter`] unless the numbers are positive and s3 lies beyond s2.
+    /// [`MaterialError::Parameter`] unless the numbers are positive, s3 lies beyond s2, and splitting beyond the chord at the
+    /// beginning.
     pub fn new(p: &ModelCodeParameters) -> Result<Self, MaterialError> {
         positive(
             LAW,
@@ -121,6 +122,19 @@ impl ModelCode {
                 (strength, [at, at, 1.2 * at], 0.0)
             }
         };
+        if slips[0] <= START * rising[1] {
+            return Err(out_of_range(
+                LAW,
+                "fcm_mpa",
+                p.fcm_mpa,
+                "MPa",
+                format!(
+                    "strengths at which the bond splits beyond a slip of {} mm",
+                    START * rising[1]
+                ),
+                "give the cylinder strength of a concrete in MPa",
+            ));
+        }
         if slips[2] <= slips[1] {
             return Err(out_of_range(
                 LAW,

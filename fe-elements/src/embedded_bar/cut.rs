@@ -110,6 +110,11 @@ impl Host {
         }
     }
 
+    /// Whether a point lies inside or, but for rounding, on a face.
+    pub(super) fn holds(&self, point: Vector3<f64>) -> bool {
+        self.outside(point) <= 1e-6
+    }
+
     /// How far a point lies outside in natural coordinates: negative inside.
     fn outside(&self, point: Vector3<f64>) -> f64 {
         self.natural(point).map_or(f64::INFINITY, |xi| {

@@ -99,7 +99,7 @@ impl Dowel {
         let beta = (foundation * diameter_mm / (4.0 * young_mpa * inertia)).powf(0.25);
         Ok(Self {
             stiffness_n: young_mpa * inertia * beta.powi(3) * band_width_mm,
-            plane_normal,
+            plane_normal: plane_normal.map(|x| x / normal),
             strength: None,
         })
     }
@@ -254,6 +254,14 @@ mod tests {
         for normal in [[0.0; 3], [f64::NAN, 0.0, 1.0]] {
             assert!(Dowel::he_kwan(10.0, 30.0, 200e3, 50.0, normal).is_err());
         }
+    }
+
+    /// The length of the normal says nothing.
+    #[test]
+    fn a_short_normal_is_as_good_as_a_unit_one() {
+        let [unit, short] = [1.0, 1e-7]
+            .map(|length| Dowel::he_kwan(16.0, 30.0, 200e3, 100.0, [0.0, 0.0, length]).unwrap());
+        assert_eq!(short.plane_normal(), unit.plane_normal());
     }
 
     /// Thin bars in strong concrete shear off: V_0 is no more than A fy/sqrt(3).

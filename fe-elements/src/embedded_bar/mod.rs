@@ -180,15 +180,19 @@ impl Hosts {
     ///
     /// # Errors
     ///
-    /// [`ElementError::NoHost`] where the piece does not lie in its host.
+    /// [`ElementError::NoHost`] where the piece does not lie in its host, [`ElementError::Input`] for an impossible bar.
     pub fn slipping(
         &self,
         bar: &Bar,
         piece: &Piece,
         own: [NodeId; 3],
     ) -> Result<EmbeddedBar, ElementError> {
+        bar.check()?;
         let host = self.0.get(piece.host);
         let host = host.ok_or_else(|| ElementError::no_host(&bar.name, piece.ends[0]))?;
+        if let Some(end) = piece.ends.iter().find(|end| !host.holds(**end)) {
+            return Err(ElementError::no_host(&bar.name, *end));
+        }
         EmbeddedBar::slipping(bar, host, piece, own)
     }
 

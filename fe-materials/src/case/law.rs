@@ -10,8 +10,8 @@ use crate::concrete::{
     ShearRetention, TensionStiffening,
 };
 use crate::fixed_crack::{
-    CompressionSoftening, Confinement, FixedCrack, FixedCrackParameters, ShearTransfer,
-    TensionSoftening,
+    CRUSHING_OVER_FRACTURE, CompressionSoftening, Confinement, FixedCrack, FixedCrackParameters,
+    ShearTransfer, TensionSoftening,
 };
 use crate::{Biso, Elastic, Hardening, Lamina, LaminaParameters, Laminate, Ply, VonMises};
 
@@ -260,7 +260,8 @@ impl LawCase {
                     poisson: c.poisson,
                     eps_c1: c.eps_c1,
                     fracture_energy: c.fracture_energy,
-                    crushing_energy: crushing_energy_n_per_mm.unwrap_or(default.crushing_energy),
+                    crushing_energy: crushing_energy_n_per_mm
+                        .unwrap_or(CRUSHING_OVER_FRACTURE * c.fracture_energy),
                     shear_floor: shear_floor.unwrap_or(default.shear_floor),
                     tension_softening: *tension_softening,
                     shear_transfer: shear_transfer.unwrap_or(default.shear_transfer),

@@ -387,6 +387,10 @@ fn impossible_parameters_and_bands_are_refused() {
             ..parameters()
         },
         FixedCrackParameters {
+            ft_mpa: parameters().fcm_mpa,
+            ..parameters()
+        },
+        FixedCrackParameters {
             shear_transfer: ShearTransfer::Interlock { aggregate_mm: 0.0 },
             ..parameters()
         },

@@ -84,6 +84,13 @@ impl Laminate {
             .map(move |ply| (ply.lamina.stiffness() * (transform(ply.angle_deg) * strain))[0])
     }
 
+    /// Mean stress (MPa) per strain along an angle (degrees) from axis 1, all other strains being zero.
+    pub fn stiffness_along(&self, angle_deg: f64) -> f64 {
+        let (s, c) = angle_deg.to_radians().sin_cos();
+        let along = Vector3::new(c * c, s * s, 2.0 * s * c);
+        along.dot(&(self.stiffness * along))
+    }
+
     /// Thickness t of the stack (mm).
     pub fn thickness_mm(&self) -> f64 {
         self.plies.iter().map(|ply| ply.thickness_mm).sum()

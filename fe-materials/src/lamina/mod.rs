@@ -101,7 +101,8 @@ impl Lamina {
 
     /// Stress along the fibres over their strength, 0 in compression (-).
     pub fn utilisation(&self, strain: &Vector3<f64>) -> f64 {
-        (self.stiffness.row(0).transpose().dot(strain) / self.strength).max(0.0)
+        let share = self.stiffness.row(0).transpose().dot(strain) / self.strength;
+        if share < 0.0 { 0.0 } else { share }
     }
 }
 

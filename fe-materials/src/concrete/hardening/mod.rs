@@ -116,7 +116,7 @@ impl CompressionCurve {
     }
 
     /// The same curve up to its peak, then regularised: it dissipates `crushing_energy` G_c (N/mm) after
-    /// the peak in a band of width h = `band_width` (mm).
+    /// the peak in a band of width h = `band_width` (mm). Both are positive; others give a curve that means nothing.
     #[must_use]
     pub fn regularised(&self, crushing_energy: f64, band_width: f64) -> Self {
         let width = 1.5 * crushing_energy / (band_width * self.strength);
