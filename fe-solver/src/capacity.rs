@@ -340,6 +340,13 @@ impl Verdict {
         self.reason.push_str(&reason);
     }
 
+    /// Takes the trust away, for a reason that is added to the others: something that the model does not have has happened.
+    pub fn distrust(&mut self, reason: &str) {
+        self.trust = Trust::Low;
+        self.reason.push_str("; ");
+        self.reason.push_str(reason);
+    }
+
     /// Lowers the trust to limited where cracked concrete has carried more than [`LOCKING`] times its tensile strength,
     /// `ratio` times, on the way to the peak. The reason is added to.
     pub fn limit_by_locking(&mut self, ratio: f64) {

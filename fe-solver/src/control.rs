@@ -125,6 +125,7 @@ impl StepControl {
         let mut step = 1;
         let mut attempts = 0;
         let mut flagged = 0;
+        let mut at_most = f64::INFINITY;
         let mut heard = Heard::default();
         loop {
             let remaining = self.end - progress;
@@ -138,16 +139,20 @@ impl StepControl {
             } else {
                 length.min(remaining)
             };
+            let this = this.min(at_most.max(self.shortest));
             if let Some(entry) = recorder.recall()? {
                 length = entry.length;
                 driver.recall(&entry.memory);
                 let done = self.replay(stage, recorder, step, entry)?;
                 flagged = done.flagged(flagged);
-                if let Continue::Stop(reason) = done.verdict {
-                    return Ok(reason);
-                }
+                let taken = done.taken;
                 length = self.next_length(length, longest, &done);
-                progress += done.taken;
+                at_most = match done.verdict {
+                    Continue::Stop(reason) => return Ok(reason),
+                    Continue::AtMost(limit) => limit,
+                    Continue::Yes => f64::INFINITY,
+                };
+                progress += taken;
                 step += 1;
                 continue;
             }
@@ -211,10 +216,12 @@ impl StepControl {
                     };
                     let done = Self::accept(stage, recorder, step, (entry, signs))?;
                     flagged = done.flagged(flagged);
-                    if let Continue::Stop(reason) = done.verdict {
-                        return Ok(reason);
-                    }
                     length = self.next_length(length, longest, &done);
+                    at_most = match done.verdict {
+                        Continue::Stop(reason) => return Ok(reason),
+                        Continue::AtMost(limit) => limit,
+                        Continue::Yes => f64::INFINITY,
+                    };
                     progress += this;
                     step += 1;
                     attempts = 0;

@@ -66,7 +66,11 @@ impl DescentSettings {
         let fits = least > 0.0 && least <= 1.0;
         setting(("least step factor of the descent", least), "(0, 1]", fits)?;
         let fits = most.is_finite() && most >= 1.0;
-        setting(("largest step factor of the descent", most), "[1, inf)", fits)
+        setting(
+            ("largest step factor of the descent", most),
+            "[1, inf)",
+            fits,
+        )
     }
 }
 

@@ -6,7 +6,10 @@
 //! bring a stage to the same state to the last bit; only then does the driver take over.
 //!
 //! Drivers keep nothing of their own from step to step, or give it as their [memory](crate::driver::Driver::memory).
-//! [`Automatic`](crate::automatic::Automatic) does neither: runs with it cannot be continued.
+//! [`Automatic`](crate::automatic::Automatic) gives it under imposed displacements; under forces it goes on from control
+//! begun anew, and the path may be another one. Where the negative pivots are not counted after every step, a driver with a
+//! symmetric tangent may find another factor at hand than in the run itself: the path then is the same to the criterion, not
+//! to the last bit.
 
 use serde::{Deserialize, Serialize};
 

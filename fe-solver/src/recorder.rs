@@ -62,10 +62,12 @@ pub struct StepView<'a> {
 }
 
 /// Whether to go on.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Continue {
     /// Go on.
     Yes,
+    /// Go on with a step no longer than this, in the load factor, but for the shortest: to end at a load, for instance.
+    AtMost(f64),
     /// Stop after this step, for the stated reason.
     Stop(String),
 }

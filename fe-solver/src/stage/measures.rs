@@ -23,7 +23,7 @@ pub const LEAST_FORCE: f64 = 1e-6;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Residual {
     /// |f_ext - f_int| on the free equations over the norm of the reactions or that of the forces applied, whichever is more
-    /// (2-norms), which counts as [`LEAST_SCALE`] of the largest reactions of all accepted steps or [`LEAST_FORCE`] where it
+    /// (2-norms, in which moments count as the couples that the largest extent of the model makes of them), which counts as [`LEAST_SCALE`] of the largest reactions of all accepted steps or [`LEAST_FORCE`] where it
     /// is less, and as 1 N where there has been none. Infinite if a force is not a number.
     pub relative: f64,
     /// Largest component (N).
@@ -38,6 +38,7 @@ impl Stage<'_> {
         let reactions = self.reactions();
         let (mut sum, mut largest, mut worst) = (0.0, 0.0, 0);
         for (&d, r) in self.assembler.free().iter().zip(residual) {
+            let r = self.as_force(d as usize, *r);
             sum += r * r;
             // The first component that is not a number stays the worst.
             if r.abs() > largest || (r.is_nan() && !largest.is_nan()) {
@@ -46,7 +47,7 @@ impl Stage<'_> {
         }
         // Forces may balance one another and leave no reaction.
         let free = self.assembler.free().iter();
-        let applied = free.map(|&d| self.external[d as usize].powi(2));
+        let applied = free.map(|&d| self.as_force(d as usize, self.external[d as usize]).powi(2));
         let applied = applied.sum::<f64>().sqrt();
         let scale = reactions
             .max(applied)
@@ -65,10 +66,15 @@ impl Stage<'_> {
         }
     }
 
+    /// A force (N), or a moment (N mm) as a couple of forces.
+    fn as_force(&self, dof: usize, value: f64) -> f64 {
+        self.levers.get(dof).map_or(value, |lever| value / lever)
+    }
+
     /// Norm of the reactions (N) of the last evaluation.
     pub(super) fn reactions(&self) -> f64 {
         let prescribed = self.conditions.prescribed().keys();
-        let squares = prescribed.map(|&d| self.reaction(d).powi(2));
+        let squares = prescribed.map(|&d| self.as_force(d, self.reaction(d)).powi(2));
         squares.sum::<f64>().sqrt()
     }
 

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 
 use fe_core::assembly::{Assembled, Assembler};
+use fe_core::dof::Dof;
 use fe_core::element::EvaluationContext;
 use fe_core::energy::{Change, Ledger};
 use fe_core::material::Operator;
@@ -75,11 +76,29 @@ pub struct Stage<'m> {
     uncounted: usize,
     /// Largest norm of the reactions (N) of all accepted states.
     largest_reactions: f64,
+    /// What divides the force of every DOF so that moments can be added to forces: 1, or the extent of the model (mm) for
+    /// rotations; empty where there are none.
+    levers: Vec<f64>,
     counters: Counters,
     times: PhaseTimes,
     ledger: Ledger,
     /// Whether the ledger knows the state from which the stage starts.
     opened: bool,
+}
+
+/// The levers of a [`Stage`].
+fn levers(model: &Model) -> Vec<f64> {
+    let dofs = model.dofs();
+    let kinds = (0..dofs.len()).map(|d| dofs.owner(d).1);
+    let turns = |dof: Dof| !Dof::DISPLACEMENTS.contains(&dof);
+    if !kinds.clone().any(turns) {
+        return Vec::new();
+    }
+    let [low, high] = model.mesh().bounding_box();
+    let extent = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
+    kinds
+        .map(|dof| if turns(dof) { extent } else { 1.0 })
+        .collect()
 }
 
 impl<'m> Stage<'m> {
@@ -124,6 +143,7 @@ impl<'m> Stage<'m> {
             signs: Signs::STABLE,
             uncounted: 0,
             largest_reactions: 0.0,
+            levers: levers(model),
             counters: Counters::default(),
             times: PhaseTimes::default(),
             ledger: Ledger::default(),
