@@ -200,7 +200,7 @@ fn sheet_state() -> SheetState {
                     zone,
                     face: Face::Side,
                     area_mm2,
-                    thickness_mm: 0.165,
+                    hoop_n_per_mm: 0.165 * 1390.0 * (-(off / 160.0).powi(2)).exp(),
                     fibre_stress_mpa: 1390.0 * (-(off / 160.0).powi(2)).exp(),
                     utilisation: 0.3,
                 });

@@ -148,6 +148,13 @@ fn report(folder: &Path) -> Result<Exit, Shown> {
 }
 
 fn drive_point(case: &Path, output: Option<&Path>) -> Result<Exit, Shown> {
+    let same = |path: &Path| Some(path.canonicalize().ok()? == case.canonicalize().ok()?);
+    if let Some(path) = output.filter(|path| same(path) == Some(true)) {
+        let path = path.display();
+        let text =
+            format!("--output {path} is the case itself and would replace it: give another file");
+        return Err(show(Exit::Usage, miette!("{text}")));
+    }
     let run = point::run(case).map_err(|error| show(error.exit(), error))?;
     let mut table = Vec::new();
     let written = run.history.write_csv(&mut table);

@@ -3,6 +3,7 @@
 pub mod analysis;
 pub mod build;
 pub mod cli;
+mod column;
 pub mod exit;
 pub mod input;
 pub mod list;

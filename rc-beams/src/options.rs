@@ -5,8 +5,9 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use clap::{Args, ValueEnum};
+use clap::{Args, Parser, ValueEnum};
 use serde::Serialize;
+use serde_json::{Map, Value};
 
 /// How specimens are modelled, solved and written.
 #[derive(Debug, Clone, PartialEq, Serialize, Args)]
@@ -16,7 +17,7 @@ pub struct RunOptions {
     pub preset: Preset,
 
     /// Elements along, up and across the half beam, of which free ends get fewer; two counts for one uniform across its
-    /// width; without it, 60x4
+    /// width; without it, 60x4, with sheets 60x6 or as many more as their edges need
     #[arg(long, value_name = "NXxNY[xNZ]")]
     pub mesh: Option<MeshSize>,
 
@@ -65,7 +66,7 @@ pub struct RunOptions {
     #[arg(long, value_name = "N", value_parser = steps, allow_negative_numbers = true)]
     pub steps: Option<u32>,
 
-    /// Final deflection imposed on the loads (mm); without it, that of the specimen
+    /// Final deflection imposed on the loads (mm); without it, beyond the peak, up to four times that of the specimen
     #[arg(long = "until", value_name = "MM", value_parser = deflection, allow_negative_numbers = true)]
     pub until_mm: Option<f64>,
 
@@ -91,6 +92,35 @@ pub struct RunOptions {
     /// Steps whose fields are written for ParaView
     #[arg(long, value_enum, default_value_t)]
     pub fields: Fields,
+}
+
+/// The options of a run where nothing is given.
+#[derive(Parser)]
+struct Defaults {
+    #[command(flatten)]
+    options: RunOptions,
+}
+
+impl RunOptions {
+    /// Those that results depend on and that are not the default, by name; of the ingredients of the law each.
+    pub fn changed(&self) -> Map<String, Value> {
+        let defaults = Defaults::try_parse_from(["rc-beams"]).map(|d| d.options.by_name());
+        let defaults = defaults.unwrap_or_default();
+        let mut own = self.by_name();
+        own.retain(|name, value| defaults.get(name) != Some(value));
+        own
+    }
+
+    fn by_name(&self) -> Map<String, Value> {
+        let mut all = match serde_json::to_value(self) {
+            Ok(Value::Object(all)) => all,
+            _ => Map::new(),
+        };
+        if let Some(Value::Object(cracks)) = all.remove("cracks") {
+            all.extend(cracks);
+        }
+        all
+    }
 }
 
 /// Ingredients of the fixed-crack law; those not given are of the preset.
@@ -330,9 +360,9 @@ impl Display for MeshSize {
     }
 }
 
-/// Largest number of elements in one direction.
 /// Relative residual that a step must meet where none is given.
 const CRITERION: f64 = 1e-3;
+/// Largest number of elements in one direction.
 const MAX_ELEMENTS: usize = 1000;
 /// Largest number of elements in all.
 const MAX_TOTAL: usize = 20_000;
@@ -363,33 +393,48 @@ impl FromStr for MeshSize {
                 ));
             }
         };
-        let across = nz.unwrap_or(1);
-        for (count, axis) in [(nx, "along"), (ny, "up"), (across, "across")] {
+        let size = Self { nx, ny, nz };
+        size.check()?;
+        Ok(size)
+    }
+}
+
+impl MeshSize {
+    /// # Errors
+    ///
+    /// What is allowed, where a run would take too long or too much memory.
+    pub fn check(self) -> Result<(), String> {
+        let across = self.nz.unwrap_or(1);
+        for (count, axis) in [(self.nx, "along"), (self.ny, "up"), (across, "across")] {
             if !(1..=MAX_ELEMENTS).contains(&count) {
                 return Err(format!(
                     "{count} elements {axis} the beam; allowed: 1 to {MAX_ELEMENTS}, for instance 60x4x1"
                 ));
             }
         }
-        let total = nx * ny * across;
+        let total = self.nx * self.ny * across;
         if total > MAX_TOTAL {
             return Err(format!(
                 "{total} elements; allowed: up to {MAX_TOTAL} in all, for instance 60x4x1"
             ));
         }
-        let size = Self { nx, ny, nz };
-        let factor = size.factor_gb();
+        let factor = self.factor_gb();
         if factor > MAX_FACTOR_GB {
             return Err(format!(
                 "the factor of the stiffness would take about {factor:.0} GB; allowed: up to \
                  {MAX_FACTOR_GB} GB; give fewer elements up and across, for instance 60x4x1"
             ));
         }
-        Ok(size)
+        Ok(())
     }
-}
 
-impl MeshSize {
+    /// The mesh with so many times the elements along and up, rounded up.
+    #[must_use]
+    pub fn finer(self, ratio: f64) -> Self {
+        let [nx, ny] = [self.nx, self.ny].map(|n| (ratio * n as f64).ceil() as usize);
+        Self { nx, ny, ..self }
+    }
+
     /// About how much the factor of the stiffness takes (GB): equations are numbered along the beam, so that
     /// a layer of elements is coupled with the next, and the band is filled.
     fn factor_gb(self) -> f64 {

@@ -33,9 +33,7 @@ fn summary(folder: &Path) -> Value {
 fn finer_steps_and_elements_give_a_band() {
     let alone = tempfile::tempdir().unwrap();
     let banded = tempfile::tempdir().unwrap();
-    let mut arguments = vec![
-        "A-SO3-1", "--mesh", "16x2x1", "--until", "0.4", "--fields", "none",
-    ];
+    let mut arguments = vec!["A-SO3-1", "--mesh", "16x2x1", "--fields", "none"];
     assert_eq!(run(alone.path(), &arguments).status.code(), Some(0));
     arguments.push("--band");
     let output = run(banded.path(), &arguments);
@@ -64,6 +62,23 @@ fn finer_steps_and_elements_give_a_band() {
     );
     let line = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(line.contains("mesh 24x3x1"), "{line}");
+}
+
+/// Target: a path that ends while the load rises has no error bar and is not compared with the test.
+#[test]
+fn a_load_that_still_rises_has_no_error_bar_and_no_ratio() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = [
+        "A-SO3-1", "--mesh", "16x2x1", "--until", "0.4", "--fields", "none", "--band",
+    ];
+    let output = run(folder.path(), &arguments);
+    let line = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        line.contains("no error bar") && !line.contains("(test"),
+        "{line}"
+    );
+    let summary = summary(folder.path());
+    assert!(summary["numerical_error"].is_null() && summary["ratio_model_to_test"].is_null());
 }
 
 /// Target: less fracture energy carries less, less crushing energy nothing before anything crushes, to the last bit.

@@ -98,7 +98,7 @@ fn sheets_of_a_user_run() {
     );
 }
 
-/// Sheets bonded at 90 kN carry nothing at that moment and something afterwards; their gauges are silent before.
+/// Sheets bonded at 90 kN, within 0.5, carry nothing at that moment and something afterwards; their gauges are silent before.
 /// Unloading first takes the load off.
 #[test]
 fn sheets_bonded_under_load_start_free_of_stress() {
@@ -113,16 +113,12 @@ fn sheets_bonded_under_load_start_free_of_stress() {
         let gauge = column(&folder, "gauges.csv", "sheet_x2140");
         let stress = column(&folder, "sheets.csv", "test_span_stress_mpa");
         let bonded = gauge.iter().position(|g| !g.is_nan()).unwrap();
-        assert!(
-            bonded > 5 && load[..bonded].iter().any(|&p| p >= 90.0),
-            "{hold}"
-        );
-        assert!(load[..bonded].iter().all(|&p| p < 95.0), "{hold}");
-        if hold == "Unload" {
-            assert!(load[bonded - 1] < 5.0, "{load:?}");
-        } else {
-            assert!(load[bonded - 1] >= 90.0, "{load:?}");
-        }
+        let largest = load[..bonded].iter().copied().fold(0.0, f64::max);
+        assert!(bonded > 5 && (largest - 90.0).abs() < 0.5, "{hold}");
+        let wanted = if hold == "Unload" { 0.0 } else { 90.0 };
+        assert!((load[bonded - 1] - wanted).abs() < 0.5, "{hold}: {load:?}");
+        let told = summary(&folder)["bonded_at_kn"].as_f64().unwrap();
+        assert!((told - load[bonded - 1]).abs() < 1e-9, "{hold}");
         let end = stress.len() - 1;
         assert!(stress[..bonded].iter().all(|&s| s == 0.0), "{hold}");
         assert!(stress[bonded] < 0.2 * stress[end], "{hold}: {stress:?}");

@@ -5,6 +5,7 @@ use fe_core::state::StateStore;
 use fe_solver::control::StepControl;
 use fe_solver::driver::Driver;
 use fe_solver::error::SolverError;
+use fe_solver::recorder::Continue;
 use fe_solver::secant::SecantAnderson;
 use fe_solver::stage::{Counters, PhaseTimes, Stage};
 
@@ -59,7 +60,11 @@ pub fn analyse(
     let wanted_kn = staging.staged.load_kn.get();
     let until = Until::Load(wanted_kn);
     let (mut first, mut imposed) = march.load(&bare, &mut state, start, stepping, until)?;
-    if first.path.last().is_none_or(|p| p.load < wanted_kn) {
+    if first
+        .path
+        .last()
+        .is_none_or(|p| until.reached(p.load, 0.0).is_none())
+    {
         if first.stop.is_ok() {
             let carried_kn = first.path.iter().map(|p| p.load).fold(0.0, f64::max);
             first.stop = Err(AnalysisError::NotReached {
@@ -116,6 +121,38 @@ pub(super) enum Until {
     Unloaded,
 }
 
+/// Share of a load within which it counts as reached.
+const LANDED: f64 = 1e-3;
+
+impl Until {
+    /// Why the stage ends at a load (kN), if it does; it began with `first`.
+    pub(super) fn reached(self, load: f64, first: f64) -> Option<String> {
+        match self {
+            Self::Failure => None,
+            Self::Load(wanted) => (load >= (1.0 - LANDED) * wanted)
+                .then(|| format!("the load reached {load:.2} kN, {wanted} were asked for")),
+            Self::Unloaded => {
+                (load <= LANDED * first.abs()).then(|| "the load was taken off".to_owned())
+            }
+        }
+    }
+
+    /// The step from a load (kN) that grows at a `rate` (kN/mm): no longer than to the load at which the stage ends.
+    pub(super) fn ahead(self, load: f64, rate: f64) -> Continue {
+        let left = match self {
+            Self::Failure => return Continue::Yes,
+            Self::Load(wanted) => wanted - load,
+            Self::Unloaded => -load,
+        };
+        let way = left / rate;
+        if way.is_finite() && way > 0.0 {
+            Continue::AtMost(way)
+        } else {
+            Continue::Yes
+        }
+    }
+}
+
 impl March<'_> {
     /// Self weight. Returns the displacements.
     fn weight(&mut self, beam: &Beam, state: &mut StateStore) -> Result<Vec<f64>, SolverError> {
@@ -159,9 +196,22 @@ impl March<'_> {
         recorder.steps_before = self.steps;
         recorder.to_the_end = stepping.to_the_end;
         recorder.until = until;
-        let stop = stepping
-            .control()
-            .run(&mut stage, self.driver, &mut recorder);
+        let mut control = stepping.control();
+        if until != Until::Failure {
+            // How stiff the beam is, and how far it is to the load, is known after the first step.
+            control.initial = control.shortest;
+        }
+        let stop = control.run(&mut stage, self.driver, &mut recorder);
+        let whole = (stage.lambda() - stepping.until_mm).abs() <= 1e-9 * stepping.until_mm;
+        let stop = stop.map(|reason| match until {
+            Until::Failure | Until::Load(_) if whole => {
+                format!(
+                    "the loads reached their deflection of {} mm",
+                    self.stepping.until_mm
+                )
+            }
+            _ => reason,
+        });
         self.work.push((*stage.counters(), *stage.times()));
         let LoadRecorder {
             path, peak, fallen, ..

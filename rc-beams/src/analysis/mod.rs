@@ -189,8 +189,8 @@ pub enum AnalysisError {
     Solver(#[from] SolverError),
     /// The bare beam fails before the sheets are bonded.
     #[error(
-        "the bare beam carries {carried_kn:.1} kN, but its sheets are to be bonded at {wanted_kn:.1} kN; give a \
-         lower load in staged.load_kn"
+        "the bare beam carries {carried_kn:.1} kN up to the end of its path, but its sheets are to be bonded at \
+         {wanted_kn:.1} kN; give a lower load in staged.load_kn or, where the path ends early, a greater deflection with --until"
     )]
     NotReached {
         /// Largest load of the bare beam (kN).

@@ -144,19 +144,18 @@ impl Recorder for LoadRecorder<'_> {
         if let Continue::Stop(reason) = self.observer.step(view, step, &reading)? {
             return Ok(Continue::Stop(reason));
         }
-        match self.until {
-            Until::Load(load) if now.load >= load => {
-                let reason = format!("the load reached {load} kN");
-                return Ok(Continue::Stop(reason));
-            }
-            Until::Unloaded if now.load <= 0.0 => {
-                return Ok(Continue::Stop("the load was taken off".into()));
-            }
-            Until::Unloaded => return Ok(Continue::Yes),
-            Until::Failure | Until::Load(_) => {}
+        let first = self.path[0].load;
+        if let Some(reason) = self.until.reached(now.load, first) {
+            return Ok(Continue::Stop(reason));
         }
-        if self.to_the_end {
-            return Ok(Continue::Yes);
+        let before = match self.path[..] {
+            [.., before, _] => before.load,
+            _ => first,
+        };
+        let rate = (now.load - before) / view.increment;
+        let go_on = self.until.ahead(now.load, rate);
+        if self.to_the_end || self.until == Until::Unloaded {
+            return Ok(go_on);
         }
         if capacity.fell {
             let fall = 100.0 * (1.0 - now.load / self.path[capacity.peak].load);
@@ -170,6 +169,6 @@ impl Recorder for LoadRecorder<'_> {
                 100.0 * DROP_FALL
             )));
         }
-        Ok(Continue::Yes)
+        Ok(go_on)
     }
 }

@@ -102,14 +102,15 @@ impl Measures {
     /// weight included or not as the reactions are.
     ///
     /// All reactions together, or, for the shear force at an inner support, the load of one span (the sum
-    /// of all reactions shared equally by the loads, as the tests report it) less the reaction of its end
+    /// of all reactions shared equally by the spans, as the tests report it) less the reaction of its end
     /// support.
     pub fn load_kn(&self, reactions: &[f64]) -> f64 {
         let total: f64 = reactions.iter().sum();
         let half = match self.load {
             LoadMeasure::TotalReactions => total,
             LoadMeasure::InnerShear { end_support } => {
-                total / self.loads.len() as f64 - reactions.get(end_support).copied().unwrap_or(0.0)
+                let spans = self.supports.len().saturating_sub(1) as f64;
+                total / spans - reactions.get(end_support).copied().unwrap_or(0.0)
             }
         };
         2.0 * half / 1e3

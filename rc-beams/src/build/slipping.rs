@@ -96,7 +96,11 @@ pub(super) fn lay(
             let natural = natural.ok_or_else(|| outside(end))?;
             let weights = hex20::shape(natural).0;
             let between: Vec<_> = around.into_iter().zip(weights).collect();
-            pair = pair.map(|element| Led::hung(element, own[end], &between));
+            let [piece, bond] = pair;
+            pair = [
+                Led::hung(piece, own[end], &between)?,
+                Led::hung(bond, own[end], &between)?,
+            ];
         }
         let [piece, bond] = pair;
         steel.push(piece);

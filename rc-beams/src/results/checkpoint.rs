@@ -94,9 +94,10 @@ impl Checkpoint {
         Ok(checkpoint)
     }
 
-    /// Whether a folder holds one.
+    /// Whether a folder holds one. Records without a byte and a header are what a run leaves that was killed at its very start.
     pub fn exists(folder: &Path) -> bool {
-        folder.join(HEADER).exists() || folder.join(STEPS).exists()
+        let holds = |name: &str| fs::metadata(folder.join(name)).is_ok_and(|m| m.len() > 0);
+        folder.join(HEADER).exists() || holds(STEPS)
     }
 
     /// Reads the one of a folder and checks all of it; nothing is written.

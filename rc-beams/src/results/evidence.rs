@@ -44,7 +44,7 @@ pub struct BarReach {
     pub bar: String,
     /// Where (mm).
     pub x_mm: f64,
-    /// Tensile stress over yield stress.
+    /// Tensile stress over yield stress; 1 at least where it has yielded in tension.
     pub utilisation: f64,
 }
 

@@ -1,6 +1,7 @@
 //! Live progress of a run, on standard error.
 
 use std::io::{self, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -40,19 +41,34 @@ impl std::fmt::Display for Status {
 }
 
 /// Where the progress of all beams under way is shown.
-#[derive(Debug, Clone)]
-pub struct Board(MultiProgress);
+#[derive(Debug)]
+pub struct Board {
+    bars: MultiProgress,
+    /// Whether a result could not be printed.
+    lost: AtomicBool,
+}
 
 impl Board {
     /// A board on standard error.
     pub fn new() -> Self {
-        Self(MultiProgress::with_draw_target(ProgressDrawTarget::stderr()))
+        Self {
+            bars: MultiProgress::with_draw_target(ProgressDrawTarget::stderr()),
+            lost: AtomicBool::new(false),
+        }
     }
 
     /// Prints the result of a beam on standard output.
     pub fn print_result(&self, line: &str) {
-        // A reader that has gone away is no reason to stop.
-        self.0.suspend(|| drop(writeln!(io::stdout(), "{line}")));
+        let printed = self.bars.suspend(|| writeln!(io::stdout(), "{line}"));
+        // A reader that has gone away is no loss.
+        if printed.is_err_and(|e| e.kind() != io::ErrorKind::BrokenPipe) {
+            self.lost.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// Whether a result could not be printed.
+    pub fn has_lost(&self) -> bool {
+        self.lost.load(Ordering::Relaxed)
     }
 }
 
@@ -82,7 +98,7 @@ impl Progress {
     /// Starts for the beam `name`, whose path ends at a deflection of `end_mm` at the latest.
     pub fn start(board: &Board, name: &str, end_mm: f64) -> Self {
         let display = if io::stderr().is_terminal() {
-            Display::Bar(board.0.add(bar(name)))
+            Display::Bar(board.bars.add(bar(name)))
         } else {
             say(&format!("{name}: started"));
             Display::Lines {

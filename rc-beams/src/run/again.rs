@@ -10,7 +10,7 @@ use super::plan::driver;
 use super::{RunError, build};
 use crate::analysis::{Observer, Reading, Staging, Stepping, analyse};
 use crate::build::{Beam, ModelSettings};
-use crate::options::{MeshSize, RunOptions};
+use crate::options::RunOptions;
 use crate::results::interrupt::Interrupt;
 use crate::results::numerical_error::{NumericalError, REFINEMENT};
 use crate::spec::Specimen;
@@ -54,10 +54,10 @@ pub(super) fn numerical_error(
     interrupt: &Interrupt,
 ) -> Result<Option<NumericalError>, RunError> {
     let halved = peak_of(specimen, settings, &stepping.halved(), options, interrupt)?;
-    let MeshSize { nx, ny, nz } = settings.mesh;
-    let [nx, ny] = [nx, ny].map(|n| (REFINEMENT * n as f64).ceil() as usize);
-    let mesh = MeshSize { nx, ny, nz };
-    let finer = ModelSettings { mesh, ..*settings };
+    let finer = ModelSettings {
+        mesh: settings.mesh.finer(REFINEMENT),
+        ..*settings
+    };
     let peak = peak_of(specimen, &finer, stepping, options, interrupt)?;
     let peaks = halved.zip(peak).filter(|(a, b)| a.reached && b.reached);
     Ok(peaks.map(|(halved, peak)| {

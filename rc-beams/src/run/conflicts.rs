@@ -7,11 +7,23 @@ use fe_materials::fixed_crack::ShearTransfer;
 
 use crate::build::ModelSettings;
 use crate::options::{Bond, Cracks, Law, RunOptions, name};
+use crate::results::numerical_error::REFINEMENT;
 use crate::spec::Specimen;
 
 /// What is wrong with the options that have led to `settings`, and the remedy; nothing where they fit.
 pub(super) fn conflict(options: &RunOptions, settings: &ModelSettings) -> Option<String> {
-    without_effect(options, settings).or_else(|| too_few_points(settings))
+    without_effect(options, settings)
+        .or_else(|| too_few_points(settings))
+        .or_else(|| too_fine_a_band(options, settings))
+}
+
+/// The finer mesh that an error bar needs has the limits of any other.
+fn too_fine_a_band(options: &RunOptions, settings: &ModelSettings) -> Option<String> {
+    let finer = settings.mesh.finer(REFINEMENT);
+    let refused = options.band.then(|| finer.check().err()).flatten()?;
+    Some(format!(
+        "--band runs --mesh {finer} too, and that has {refused}: leave --band out, or give a coarser --mesh"
+    ))
 }
 
 /// Ingredients of a law that is not taken.

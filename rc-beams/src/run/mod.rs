@@ -79,7 +79,12 @@ pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, Run
     for (_, specimen) in left {
         board.print_result(&format!("{:<8}  not started", specimen.name));
     }
-    Ok(exit)
+    // The results are in their folders, but who waits for them here should know.
+    Ok(if board.has_lost() {
+        exit.max(Exit::File)
+    } else {
+        exit
+    })
 }
 
 /// Whether the model of a specimen can be built with the default options: what laws and elements refuse comes out here.
@@ -106,9 +111,13 @@ fn run(
     let hash = input_hash(specimen, options);
     let (folder, checkpoint) = match resume::begin(&specimen.name, &hash, options)? {
         Beginning::From(folder, checkpoint) => (folder, *checkpoint),
-        Beginning::Done => {
-            board.print_result(&format!("{:<8}  done before", specimen.name));
-            return Ok(Exit::Done);
+        Beginning::Over(exit) => {
+            let how = match exit {
+                Exit::Done => "done before",
+                _ => "stopped early before; without --resume it is run again",
+            };
+            board.print_result(&format!("{:<8}  {how}", specimen.name));
+            return Ok(exit);
         }
     };
     let stepping = stepping(specimen, options);
@@ -189,9 +198,20 @@ fn run(
         _ => None,
     };
     let tension = |capacity: &Capacity| watch.largest_tension(outcome.path.len(), capacity.peak);
+    let at_peak = outcome.peak.as_ref().unwrap_or(&outcome.last);
+    let peak = evidence::snapshot(beam, at_peak)?;
     let figures = capacity.and_then(|capacity| {
         let mut verdict = Verdict::of(&outcome.path, &capacity);
         verdict.limit_by_locking(tension(&capacity));
+        let torn = watch.largest_utilisation(outcome.path.len(), capacity.peak);
+        if torn >= 1.0 {
+            verdict.distrust(&format!(
+                "sheets carry up to {torn:.2} times their strength: none tears in this model"
+            ));
+        }
+        for bar in broken(specimen, &peak) {
+            verdict.distrust(&bar);
+        }
         if let Some(error) = &numerical_error {
             verdict.limit_by_change("half the steps", error.half_steps.change);
             verdict.limit_by_change("a finer mesh", error.finer_mesh.change);
@@ -209,8 +229,6 @@ fn run(
         board.print_result(&format!("{:<8}  {kept}", specimen.name));
         return Ok(exit);
     };
-    let at_peak = outcome.peak.as_ref().unwrap_or(&outcome.last);
-    let peak = evidence::snapshot(beam, at_peak)?;
     let at_end = outcome.fallen.as_ref().unwrap_or(&outcome.last);
     let last = evidence::snapshot(beam, at_end)?;
     let ratio = match &beam.sheets {
@@ -265,7 +283,9 @@ fn run(
         setup,
         work,
         figures,
+        bonded_at_kn: outcome.before.last().map(|p| p.load),
         stop_reason,
+        stopped_early: exit != Exit::Done,
         diagnosis,
         bond_error,
         tension_over_strength: tension(&capacity),
@@ -289,6 +309,21 @@ fn run(
     }
     board.print_result(&line);
     Ok(exit)
+}
+
+/// What is said of longitudinal bars that carry more than their rupture stress.
+fn broken<'a>(specimen: &'a Specimen, at: &'a Snapshot) -> impl Iterator<Item = String> + 'a {
+    at.bars.iter().filter_map(|reach| {
+        let bar = specimen.bars.iter().find(|bar| bar.name == reach.bar)?;
+        let stress = reach.utilisation * bar.steel.fy_mpa.get();
+        let ratio = stress / bar.steel.fu_mpa.get();
+        (ratio > 1.0).then(|| {
+            format!(
+                "{} bars carry up to {ratio:.2} times their rupture stress: none breaks in this model",
+                reach.bar
+            )
+        })
+    })
 }
 
 fn diagnosis(

@@ -124,6 +124,7 @@ pub(super) fn setup(
         mesh: settings.mesh.to_string(),
         elements: beam.model.elements().len(),
         dofs: beam.model.dofs().len(),
+        options: options.changed(),
         version: env!("CARGO_PKG_VERSION").into(),
         input_hash: input_hash(specimen, options),
     }

@@ -59,7 +59,7 @@ pub(super) fn error(model: &Model, sheets: &SheetRecord) -> Result<Option<BondEr
         extent(0) * cos.abs() + extent(1) * sin.abs()
     });
     let size = size.fold(0.0, f64::max);
-    let membrane = ply.lamina.stiffness()[(0, 0)] * ply.thickness_mm;
+    let membrane = first.laminate.stiffness_along(ply.angle_deg) * first.laminate.thickness_mm();
     let exact = PullOut::new(sheets.curve, membrane)
         .map_err(|e| solver(BuildError::from(e).into()))?
         .ultimate();

@@ -6,6 +6,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::RunError;
+use crate::exit::Exit;
 use crate::options::RunOptions;
 use crate::results::checkpoint::{Checkpoint, CheckpointError};
 use crate::results::folder::Folder;
@@ -14,8 +15,8 @@ use crate::results::folder::Folder;
 pub(super) enum Beginning {
     /// With these records, if any.
     From(Folder, Box<Checkpoint>),
-    /// It has ended before.
-    Done,
+    /// It has ended before, in this way.
+    Over(Exit),
 }
 
 /// Looks for what an earlier run of the same input has left; nothing is changed.
@@ -32,8 +33,11 @@ fn earlier(folder: &Path, input_hash: &str) -> Result<Option<Beginning>, RunErro
         return Ok(None);
     };
     let summary: Option<Value> = serde_json::from_slice(&text).ok();
-    if summary.is_some_and(|s| s["input_hash"] == input_hash) {
-        return Ok(Some(Beginning::Done));
+    if let Some(summary) = summary.filter(|s| s["input_hash"] == input_hash) {
+        return Ok(Some(Beginning::Over(match summary["stopped_early"] {
+            Value::Bool(true) => Exit::StoppedEarly,
+            _ => Exit::Done,
+        })));
     }
     let reason = "it is damaged, or belongs to another specimen or other options".into();
     Err(CheckpointError { path, reason }.into())

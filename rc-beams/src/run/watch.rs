@@ -124,6 +124,12 @@ impl Watch {
         last(&self.rows, steps)
     }
 
+    /// Largest stress of sheets over their strength up to the step `peak` of a path of `steps` steps.
+    pub(super) fn largest_utilisation(&self, steps: usize, peak: usize) -> f64 {
+        let path = self.rows(steps).iter().take(peak + 1);
+        path.map(|row| row.utilisation).fold(0.0, f64::max)
+    }
+
     /// Largest principal tension of cracked concrete over its strength up to the step `peak` of a path of `steps` steps.
     pub(super) fn largest_tension(&self, steps: usize, peak: usize) -> f64 {
         let path = last(&self.tension, steps).iter();

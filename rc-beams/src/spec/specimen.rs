@@ -217,7 +217,7 @@ pub enum LoadMeasure {
     /// Sum of the vertical reactions of all supports.
     TotalReactions,
     /// Shear force at an inner support: the load of one span, which is the sum of all reactions shared
-    /// equally by the loads, less the reaction of the end support of that span.
+    /// equally by the spans, less the reaction of the end support of that span.
     InnerShear {
         /// Which end support, counted from 0 at the left.
         end_support: usize,

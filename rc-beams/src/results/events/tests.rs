@@ -141,7 +141,7 @@ fn the_interface_counts_by_its_largest_slip_and_the_sheet_by_its_utilisation() {
                 zone: 0,
                 face: Face::Side,
                 area_mm2: 100.0,
-                thickness_mm: 0.165,
+                hoop_n_per_mm: 0.165 * 3790.0 * utilisation,
                 fibre_stress_mpa: 3790.0 * utilisation,
                 utilisation,
             }],

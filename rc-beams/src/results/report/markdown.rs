@@ -92,15 +92,37 @@ fn without_failure(beams: &[Stored]) -> String {
     )
 }
 
+/// Options that are told as what they come to, or that change no answer.
+const TOLD: [&str; 8] = [
+    "preset",
+    "law",
+    "driver",
+    "integration",
+    "mesh",
+    "fields",
+    "band",
+    "counterfactual",
+];
+
 /// Beams by the settings they were run with.
 fn settings(beams: &[Stored]) -> String {
     let mut by_settings: Vec<(String, Vec<&str>)> = Vec::new();
     for beam in beams {
         let s = &beam.summary;
-        let of = format!(
+        let mut of = format!(
             "preset {}, law {}, driver {}, {} integration, mesh {}",
             s.preset, s.law, s.driver, s.integration, s.mesh
         );
+        for (name, value) in s
+            .options
+            .iter()
+            .filter(|(name, _)| !TOLD.contains(&name.as_str()))
+        {
+            let value = value
+                .as_str()
+                .map_or_else(|| value.to_string(), str::to_owned);
+            let _ = write!(of, ", {} {value}", name.replace('_', " "));
+        }
         match by_settings.iter_mut().find(|(known, _)| *known == of) {
             Some((_, names)) => names.push(&beam.name),
             None => by_settings.push((of, vec![&beam.name])),

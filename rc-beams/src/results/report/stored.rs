@@ -8,6 +8,7 @@ use std::{fs, io};
 
 use csv::{Reader, StringRecord};
 use serde::Deserialize;
+use serde_json::{Map, Value};
 
 use super::exists;
 use crate::results::events::EventKind;
@@ -40,6 +41,9 @@ pub(super) struct StoredSummary {
     pub driver: String,
     pub integration: String,
     pub mesh: String,
+    /// Those given that are not the default.
+    #[serde(default)]
+    pub options: Map<String, Value>,
     pub steps: usize,
     pub peak_load_kn: f64,
     pub deflection_at_peak_mm: f64,

@@ -220,7 +220,7 @@ fn store_sheets(root: &Path) {
             zone: 0,
             face: Face::Side,
             area_mm2: 1.5e4,
-            thickness_mm: 0.165,
+            hoop_n_per_mm: 0.165 * 900.0,
             fibre_stress_mpa: 900.0,
             utilisation: 0.25,
         });

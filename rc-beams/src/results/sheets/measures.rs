@@ -95,8 +95,7 @@ impl SheetRow {
                 let place = (x / SAME_COLUMN_MM).round() as i64;
                 let column = columns.entry((span, point.zone, place)).or_default();
                 column.area += point.area_mm2;
-                let tension = point.thickness_mm * point.fibre_stress_mpa;
-                column.tension = column.tension.max(tension);
+                column.tension = column.tension.max(point.hoop_n_per_mm);
             }
         }
         for ((span, zone, _), column) in columns {

@@ -48,8 +48,7 @@ impl fmt::Display for Face {
     }
 }
 
-/// An integration point of a sheet. Where a sheet has several plies, the one whose fibres go round the
-/// section; one entry per place.
+/// An integration point of a sheet, one for all its plies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SheetPoint {
     /// Position (mm).
@@ -60,9 +59,10 @@ pub struct SheetPoint {
     pub face: Face,
     /// Area it stands for (mm2).
     pub area_mm2: f64,
-    /// Thickness of the ply (mm).
-    pub thickness_mm: f64,
-    /// Stress along the fibres that go round the section, tension positive (MPa).
+    /// What the fibres carry round the section per length along the beam (N/mm): the sum of t sigma sin^2(angle) over the
+    /// plies, of thickness t and fibre stress sigma, at an angle to the beam.
+    pub hoop_n_per_mm: f64,
+    /// Stress along the fibres, that of the ply where it is largest, tension positive (MPa).
     pub fibre_stress_mpa: f64,
     /// Stress over strength, the largest of all plies.
     pub utilisation: f64,

@@ -1,6 +1,7 @@
 //! `sheets.csv`.
 
 use super::{SheetLayout, SheetRow};
+use crate::column::slug;
 use crate::results::error::ResultsError;
 use crate::results::evidence::Layout;
 use crate::results::folder::Folder;
@@ -75,12 +76,4 @@ impl SheetTable {
         self.table.row(cells)?;
         self.table.flush()
     }
-}
-
-/// A name as part of a column.
-fn slug(name: &str) -> String {
-    let plain = name.to_lowercase();
-    let words = plain.split(|c: char| !c.is_alphanumeric());
-    let words: Vec<&str> = words.filter(|w| !w.is_empty()).collect();
-    words.join("_")
 }

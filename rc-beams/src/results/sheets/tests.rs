@@ -54,7 +54,7 @@ fn state(
                 zone,
                 face: Face::Side,
                 area_mm2: 5000.0,
-                thickness_mm: 0.2,
+                hoop_n_per_mm: 0.2 * stress(zone, i, j),
                 fibre_stress_mpa: stress(zone, i, j),
                 utilisation: stress(zone, i, j) / 3500.0,
             });

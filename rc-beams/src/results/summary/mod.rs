@@ -9,6 +9,7 @@ use std::io;
 use fe_solver::capacity::{Capacity, PathPoint, Verdict};
 use fe_solver::stage::{Counters, PhaseTimes};
 use serde::Serialize;
+use serde_json::{Map, Value};
 
 use super::error::ResultsError;
 use super::folder::Folder;
@@ -28,8 +29,12 @@ pub struct Summary {
     /// What the load path says.
     #[serde(flatten)]
     pub figures: Figures,
+    /// Load (kN) at which the sheets were bonded, where they were not there from the start.
+    pub bonded_at_kn: Option<f64>,
     /// Why the run ended.
     pub stop_reason: String,
+    /// Whether it ended before its end.
+    pub stopped_early: bool,
     /// Mode of failure.
     #[serde(flatten)]
     pub diagnosis: Diagnosis,
@@ -100,6 +105,8 @@ pub struct Setup {
     pub elements: usize,
     /// Degrees of freedom.
     pub dofs: usize,
+    /// Options that were given and are not the default, by name.
+    pub options: Map<String, Value>,
     /// Version of the program.
     pub version: String,
     /// [`fingerprint`](super::hash::fingerprint) of specimen and options.

@@ -4,7 +4,7 @@ use crate::results::mode::FailureMode;
 use serde_json::Value;
 
 /// Keys that readers may rely on.
-const KEYS: [&str; 38] = [
+const KEYS: [&str; 41] = [
     "specimen",
     "preset",
     "law",
@@ -23,7 +23,9 @@ const KEYS: [&str; 38] = [
     "first_drop_load_kn",
     "first_drop_deflection_mm",
     "post_peak_drop",
+    "bonded_at_kn",
     "stop_reason",
+    "stopped_early",
     "max_residual",
     "flagged_steps",
     "p_star_gap_kn",
@@ -41,6 +43,7 @@ const KEYS: [&str; 38] = [
     "wall_s",
     "cpu_s",
     "max_rss_mb",
+    "options",
     "version",
     "input_hash",
 ];
@@ -70,7 +73,9 @@ fn summary(loads: &[f64]) -> Summary {
             ..Work::default()
         },
         figures: Figures::of(&path, &capacity, &verdict).unwrap(),
+        bonded_at_kn: None,
         stop_reason: "the load fell by 20 %".to_owned(),
+        stopped_early: false,
         diagnosis: Diagnosis {
             mode: FailureMode::DiagonalTension,
             mode_evidence: String::new(),

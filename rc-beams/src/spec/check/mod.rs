@@ -8,6 +8,7 @@ use std::fmt::Display;
 use std::ops::RangeInclusive;
 
 use super::specimen::Specimen;
+use crate::column::slug;
 
 /// Slack of comparisons of lengths (mm).
 const TOLERANCE: f64 = 1e-6;
@@ -83,14 +84,29 @@ impl Checks<'_> {
         }
     }
 
-    /// Reports a name given before.
-    fn named_once(&mut self, path: &str, what: &str, name: &str, before: bool) {
-        if before {
-            self.report(
-                format!("{path}.name"),
-                format!("{name:?} names two {what}; allowed: a name of its own"),
-                "the results are written by name",
-            );
+    /// Reports a name that gives no column of its own beside those `before`.
+    fn named_once<'n>(
+        &mut self,
+        path: &str,
+        (what, name): (&str, &str),
+        mut before: impl Iterator<Item = &'n String>,
+    ) {
+        let column = slug(name);
+        let path = format!("{path}.name");
+        let remedy = "the results are written by name, its letters and digits in columns";
+        if column.is_empty() || name.chars().any(char::is_control) {
+            let message =
+                format!("{name:?} cannot name a column; allowed: letters and digits, one at least");
+            self.report(path, message, remedy);
+        } else if let Some(other) = before.find(|other| slug(other) == column) {
+            let message = if other == name {
+                format!("{name:?} names two {what}; allowed: a name of its own")
+            } else {
+                format!(
+                    "{name:?} and {other:?} give {what} one column, {column}; allowed: names that differ in letters or digits"
+                )
+            };
+            self.report(path, message, remedy);
         }
     }
 

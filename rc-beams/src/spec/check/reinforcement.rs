@@ -25,8 +25,8 @@ impl Checks<'_> {
         let specimen = self.specimen;
         for (i, bar) in specimen.bars.iter().enumerate() {
             self.bar(&format!("bars[{i}]"), bar);
-            let named = specimen.bars[..i].iter().any(|b| b.name == bar.name);
-            self.named_once(&format!("bars[{i}]"), "bars", &bar.name, named);
+            let before = specimen.bars[..i].iter().map(|b| &b.name);
+            self.named_once(&format!("bars[{i}]"), ("bars", &bar.name), before);
         }
         self.steel_share();
         if let Some(stirrups) = &specimen.stirrups {

@@ -52,8 +52,8 @@ impl Checks<'_> {
             self.at_least_one("sheets.wraps", "wraps", sheets.wraps.len());
             for (i, wrap) in sheets.wraps.iter().enumerate() {
                 let path = format!("sheets.wraps[{i}]");
-                let named = sheets.wraps[..i].iter().any(|w| w.name == wrap.name);
-                self.named_once(&path, "wraps", &wrap.name, named);
+                let before = sheets.wraps[..i].iter().map(|w| &w.name);
+                self.named_once(&path, ("wraps", &wrap.name), before);
                 self.wrap(&path, wrap);
                 for (k, cover) in wrap.faces.iter().enumerate() {
                     let path = format!("{path}.faces[{k}]");
@@ -75,8 +75,8 @@ impl Checks<'_> {
         let gauges = &specimen.measuring.sheet_gauges;
         for (i, gauge) in gauges.iter().enumerate() {
             let path = format!("measuring.sheet_gauges[{i}]");
-            let named = gauges[..i].iter().any(|g| g.name == gauge.name);
-            self.named_once(&path, "gauges", &gauge.name, named);
+            let before = gauges[..i].iter().map(|g| &g.name);
+            self.named_once(&path, ("gauges", &gauge.name), before);
             self.gauge(&path, gauge, &patches);
         }
     }
