@@ -108,7 +108,8 @@ impl MixedMode {
         let law = Self { p, onset };
         for share in (0..=100).map(|i| f64::from(i) / 100.0) {
             let branch = law.branch(share);
-            if !(branch.end > branch.onset) {
+            let softening = branch.end - branch.onset;
+            if softening.is_nan() || softening <= 0.0 {
                 return Err(out_of_range(
                     LAW,
                     "stiffness_mpa_per_mm",

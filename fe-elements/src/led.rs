@@ -54,7 +54,7 @@ impl Led {
         held: &[(NodeId, f64)],
     ) -> Result<Box<dyn Element>, ElementError> {
         let sum: f64 = held.iter().map(|(_, n)| n).sum();
-        if !((sum - 1.0).abs() <= 1e-6) {
+        if sum.is_nan() || (sum - 1.0).abs() > 1e-6 {
             return Err(ElementError::Input {
                 what: "sum of the shape functions that hold a node".into(),
                 value: sum,

@@ -178,7 +178,8 @@ impl Driver for NewtonRaphson {
             }
             let converged = size.relative <= request.criterion;
             let over = worse || iterations >= s.max_iterations || !size.relative.is_finite();
-            let nearer = best.take_if(|(nearest, ..)| !(size.relative < *nearest));
+            let nearer =
+                best.take_if(|(nearest, ..)| size.relative >= *nearest || size.relative.is_nan());
             if converged || over {
                 let residual = match nearer {
                     Some((_, at, load)) if !converged => {
