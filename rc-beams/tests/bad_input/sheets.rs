@@ -15,7 +15,7 @@ const ON_STRIPS: &[Case] = &[
         "730",
         &[
             "sheets.wraps[0].stretches[1].x_from_mm: left end of the stretch at 730 mm",
-            "allowed: 732.5 to 3050 mm",
+            "allowed: 733.5 to 3050 mm",
             "each behind the one to its left",
         ],
     ),
@@ -98,6 +98,15 @@ const ON_A_CONTINUOUS_SHEET: &[Case] = &[
             "sheets.wraps[0].faces[1]: Side face covered twice between 670 and 2380 mm",
             "also by sheets.wraps[0].faces[0]; allowed: once",
             "list all plies of a place in one `angles_deg`",
+        ],
+    ),
+    (
+        "(face: Side, from_mm: 0, to_mm: 305, angles_deg: [90])",
+        "(face: Side, from_mm: 0, to_mm: 150, angles_deg: [90]), (face: Side, from_mm: 150, to_mm: 305, angles_deg: [90])",
+        "",
+        &[
+            "sheets.wraps[0].faces[1]: sheet on the Side face between 670 and 2380 mm touches sheets.wraps[0].faces[0]",
+            "allowed: 1 mm between them, or more",
         ],
     ),
     (

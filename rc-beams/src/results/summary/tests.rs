@@ -48,6 +48,16 @@ const KEYS: [&str; 41] = [
     "input_hash",
 ];
 
+/// Every key is explained in the manual.
+#[test]
+fn the_manual_names_every_key() {
+    let manual = include_str!("../../../README.md");
+    let value = serde_json::to_value(summary(&[0.0, 10.0, 5.0])).unwrap();
+    for key in value.as_object().unwrap().keys() {
+        assert!(manual.contains(&format!("`{key}`")), "{key}");
+    }
+}
+
 fn summary(loads: &[f64]) -> Summary {
     let point = |(i, &load): (usize, &f64)| PathPoint {
         deflection: i as f64,

@@ -136,5 +136,13 @@ impl Checks<'_> {
                 "choose a short name, for instance \"A-SO3-1\"",
             );
         }
+        // The report of the folder writes files of these names.
+        if name.starts_with("report.") || name.starts_with("report-") {
+            self.report(
+                "name",
+                format!("{name:?} is a name of the report's; allowed: any that does not begin with report. or report-"),
+                "choose another name",
+            );
+        }
     }
 }

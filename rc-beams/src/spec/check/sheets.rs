@@ -6,6 +6,9 @@ use crate::spec::sheets::{Cover, Face, SheetGauge, Stretch, Wrap};
 const FACE: &str = "on the side, from_mm and to_mm are heights above the soffit; on soffit and top, \
                     distances from the middle of the width";
 
+/// Least distance (mm) between sheets: their interfaces would meet in nodes that lie in one place and are not one.
+const GAP: f64 = 1.0;
+
 /// A rectangle of sheet on a face.
 struct Patch<'a> {
     /// The field of the cover.
@@ -15,13 +18,14 @@ struct Patch<'a> {
 }
 
 impl Patch<'_> {
-    /// Whether two covers lie on the same place of the same face. Stretches of one cover are compared where
-    /// their order is checked.
-    fn covers_twice(&self, other: &Self) -> bool {
+    /// Whether two covers of one face lie on the same place, or would after moving by less than `gap` (mm). Stretches of one
+    /// cover are compared where their order is checked.
+    fn meets(&self, other: &Self, gap: f64) -> bool {
+        let wide = |(from, to): (f64, f64)| (from - gap, to + gap);
         self.path != other.path
             && self.cover.face == other.cover.face
-            && overlap(self.along(), other.along())
-            && overlap(self.across(), other.across())
+            && overlap(wide(self.along()), other.along())
+            && overlap(wide(self.across()), other.across())
     }
 
     /// Whether a point (mm) of the face lies on the patch.
@@ -93,21 +97,21 @@ impl Checks<'_> {
         self.at_least_one(&format!("{path}.stretches"), "stretches", stretches.len());
         self.at_least_one(&format!("{path}.faces"), "faces", faces.len());
         let length = self.length();
-        let mut end = 0.0;
+        let mut least = 0.0;
         for (i, stretch) in stretches.iter().enumerate() {
             let path = format!("{path}.stretches[{i}]");
             let (from, to) = (stretch.x_from_mm.get(), stretch.x_to_mm.get());
             self.within(
                 format!("{path}.x_from_mm"),
                 ("left end of the stretch", from),
-                end..=length.max(end),
-                "stretches lie on the beam, each behind the one to its left",
+                least..=length.max(least),
+                "stretches lie on the beam, each behind the one to its left with a gap between",
             );
             let right = ("right end of the stretch", to);
             self.within(format!("{path}.x_to_mm"), right, 0.0..=length, ALONG);
             self.ascending(format!("{path}.x_to_mm"), from, to);
             self.clear_of_plates(&path, (from, to), faces);
-            end = to;
+            least = to + GAP;
         }
         for (i, cover) in faces.iter().enumerate() {
             self.cover(&format!("{path}.faces[{i}]"), cover);
@@ -168,15 +172,26 @@ impl Checks<'_> {
             if patch.path == reported {
                 continue;
             }
-            if let Some(other) = patches[..i].iter().find(|other| patch.covers_twice(other)) {
-                let (from, to) = patch.along();
+            let (face, (from, to)) = (patch.cover.face, patch.along());
+            let found = |gap| patches[..i].iter().find(|other| patch.meets(other, gap));
+            if let Some(other) = found(0.0) {
                 self.report(
                     &patch.path,
                     format!(
-                        "{:?} face covered twice between {from} and {to} mm, also by {}; allowed: once",
-                        patch.cover.face, other.path
+                        "{face:?} face covered twice between {from} and {to} mm, also by {}; allowed: once",
+                        other.path
                     ),
                     "list all plies of a place in one `angles_deg`",
+                );
+                reported = &patch.path;
+            } else if let Some(other) = found(GAP) {
+                self.report(
+                    &patch.path,
+                    format!(
+                        "sheet on the {face:?} face between {from} and {to} mm touches {}; allowed: {GAP} mm between them, or more",
+                        other.path
+                    ),
+                    "make one sheet of the two, or leave a gap",
                 );
                 reported = &patch.path;
             }

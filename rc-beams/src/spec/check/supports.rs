@@ -1,6 +1,6 @@
 //! Supports, loads and measuring points lie on the beam and hold it.
 
-use super::{ALONG, Checks, TOLERANCE};
+use super::{Checks, TOLERANCE};
 use crate::spec::specimen::{Held, LoadMeasure};
 
 /// A plate on or under the beam.
@@ -148,8 +148,20 @@ impl Checks<'_> {
         }
         let span = &measuring.test_span;
         let (from, to) = (span.x_from_mm.get(), span.x_to_mm.get());
-        let end = ("end of the test span", to);
-        self.within("measuring.test_span.x_to_mm", end, 0.0..=length, ALONG);
+        let supports = self.specimen.supports.iter().map(|s| s.x_mm.get());
+        let (left, right) =
+            supports.fold((length, 0.0), |(l, r): (f64, f64), x| (l.min(x), r.max(x)));
+        for (field, what, x) in [
+            ("x_from_mm", "beginning of the test span", from),
+            ("x_to_mm", "end of the test span", to),
+        ] {
+            self.within(
+                format!("measuring.test_span.{field}"),
+                (what, x),
+                left..=right.max(left),
+                "the test span lies between the outer supports",
+            );
+        }
         self.ascending("measuring.test_span.x_to_mm", from, to);
         let supports = self.specimen.supports.len();
         let LoadMeasure::InnerShear { end_support } = measuring.load else {
