@@ -301,11 +301,10 @@ fn run(
         Checkpoint::remove(&folder)?;
     }
     let mut line = summary.line();
-    if options.band && summary.numerical_error.is_none() {
-        line += "  no error bar, for not all paths go beyond a peak";
-    }
     if exit != Exit::Done {
         line = format!("{line}  {kept}");
+    } else if options.band && summary.numerical_error.is_none() {
+        line += "  no error bar, for not all paths go beyond a peak";
     }
     board.print_result(&line);
     Ok(exit)
