@@ -16,6 +16,37 @@ pub fn elastic(young_mpa: f64, poisson: f64) -> Result<Arc<dyn Material<Solid>>,
     Ok(Arc::new(Elastic::new(young_mpa, poisson)?))
 }
 
+/// Stress D e of any D, symmetric or not; states no energy.
+#[derive(Debug, Clone, Copy)]
+pub struct Linear(pub Matrix6<f64>);
+
+impl Material<Solid> for Linear {
+    fn name(&self) -> &'static str {
+        "linear"
+    }
+
+    fn state_vars(&self) -> &[StateVar] {
+        &[]
+    }
+
+    fn unsymmetric_tangent(&self) -> bool {
+        self.0 != self.0.transpose()
+    }
+
+    fn update(
+        &self,
+        strain: &Vector6<f64>,
+        _committed: &[f64],
+        _trial: &mut [f64],
+        _ctx: &PointContext,
+    ) -> Result<Response<Solid>, MaterialError> {
+        Ok(Response {
+            stress: self.0 * strain,
+            tangent: self.0,
+        })
+    }
+}
+
 /// A tendon without stiffness: the same stress at every strain.
 #[derive(Debug, Clone, Copy)]
 pub struct Tendon {

@@ -3,44 +3,16 @@
 use std::sync::Arc;
 
 use fe_core::element::Element;
-use fe_core::kinematics::Solid;
-use fe_core::material::{Material, MaterialError, PointContext, Response, StateVar};
 use fe_core::shape::hex20;
 use fe_core::voigt::isotropic;
 use fe_elements::{BandWidth, Hex20, HexRule, Installed};
-use nalgebra::Vector6;
-
-/// Linear elasticity that says nothing of its energy.
-#[derive(Debug)]
-struct Silent;
-
-impl Material<Solid> for Silent {
-    fn name(&self) -> &'static str {
-        "silent"
-    }
-
-    fn state_vars(&self) -> &[StateVar] {
-        &[]
-    }
-
-    fn update(
-        &self,
-        strain: &Vector6<f64>,
-        _: &[f64],
-        _: &mut [f64],
-        _: &PointContext,
-    ) -> Result<Response<Solid>, MaterialError> {
-        let tangent = isotropic(3e4, 0.0);
-        let stress = tangent * strain;
-        Ok(Response { stress, tangent })
-    }
-}
+use fe_tests::laws::Linear;
 
 /// Target: (1/2) E e^2 V of the strain since the installation, V = 8 mm3, within rounding.
 #[test]
 fn the_energy_is_that_of_the_strain_since() {
     let nodes = std::array::from_fn(|a| a);
-    let law = Arc::new(Silent);
+    let law = Arc::new(Linear(isotropic(3e4, 0.0)));
     let cube = Hex20::new(
         nodes,
         &hex20::NODES,

@@ -5,15 +5,14 @@ use std::sync::Arc;
 
 use fe_core::assembly::{Assembled, Assembler};
 use fe_core::element::EvaluationContext;
-use fe_core::kinematics::Solid;
-use fe_core::material::{Material, MaterialError, Operator, PointContext, Response, StateVar};
+use fe_core::material::Operator;
 use fe_core::mesh::Mesh;
 use fe_core::model::{Conditions, Model};
 use fe_core::shape::hex20;
 use fe_core::state::StateStore;
 use fe_core::voigt::isotropic;
 use fe_elements::{BandWidth, Hex20, HexRule};
-use nalgebra::{Matrix6, Vector6};
+use fe_tests::laws::Linear;
 
 /// The hexahedron of side 2 whose face x = -1 is drawn together to the edge y = 0.
 fn wedge() -> ([usize; 20], Vec<[f64; 3]>) {
@@ -34,37 +33,6 @@ fn wedge() -> ([usize; 20], Vec<[f64; 3]>) {
         places[node] = place;
     }
     (nodes, places)
-}
-
-/// Stress D e, of any D.
-#[derive(Debug)]
-struct Linear(Matrix6<f64>);
-
-impl Material<Solid> for Linear {
-    fn name(&self) -> &'static str {
-        "linear"
-    }
-
-    fn state_vars(&self) -> &[StateVar] {
-        &[]
-    }
-
-    fn unsymmetric_tangent(&self) -> bool {
-        self.0 != self.0.transpose()
-    }
-
-    fn update(
-        &self,
-        strain: &Vector6<f64>,
-        _: &[f64],
-        _: &mut [f64],
-        _: &PointContext,
-    ) -> Result<Response<Solid>, MaterialError> {
-        Ok(Response {
-            stress: self.0 * strain,
-            tangent: self.0,
-        })
-    }
 }
 
 /// Target: K u = f of the linear wedge within rounding, with a symmetric matrix and with one that is not.
