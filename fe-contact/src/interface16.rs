@@ -125,7 +125,7 @@ impl Interface16 {
         law: Arc<dyn Material<Interface>>,
     ) -> Result<Self, ElementError> {
         let (_, slopes) = quad8::shape([0.0; 2]);
-        let [along, across] = tangents(coords, &slopes);
+        let [along, across] = quad8::base(coords, &slopes);
         let middle = along.cross(&across);
         let mut points = Vec::new();
         for (point, (xi, w)) in rule.points().into_iter().enumerate() {
@@ -134,7 +134,7 @@ impl Interface16 {
             for (n, x) in values.iter().zip(coords) {
                 position += *n * Vector3::from(*x);
             }
-            let [along, across] = tangents(coords, &slopes);
+            let [along, across] = quad8::base(coords, &slopes);
             let normal = along.cross(&across);
             let determinant = normal.norm();
             let scale = along.norm() * across.norm();
@@ -163,14 +163,6 @@ impl Interface16 {
     pub fn law(&self) -> &Arc<dyn Material<Interface>> {
         &self.law
     }
-}
-
-/// Derivatives of the position (mm) along the two natural coordinates.
-fn tangents(coords: &[[f64; 3]; 8], slopes: &[[f64; 2]; 8]) -> [Vector3<f64>; 2] {
-    [0, 1].map(|k| {
-        let terms = slopes.iter().zip(coords);
-        terms.map(|(s, x)| s[k] * Vector3::from(*x)).sum()
-    })
 }
 
 /// Adds the blocks of the stiffness: minus between the faces, plus within each.

@@ -57,14 +57,6 @@ impl Place {
     }
 }
 
-/// Base vectors dx/dxi and dx/deta (mm) of the surface.
-pub(crate) fn base(coords: &[[f64; 3]; 8], slopes: &[[f64; 2]; 8]) -> [Vector3<f64>; 2] {
-    std::array::from_fn(|k| {
-        let terms = slopes.iter().zip(coords);
-        terms.map(|(s, x)| s[k] * Vector3::from(*x)).sum()
-    })
-}
-
 /// The integration points of a rule; axis 1 is the projection of the direction `axis`.
 ///
 /// # Errors
@@ -76,11 +68,11 @@ pub(crate) fn places(
     rule: QuadRule,
     axis: [f64; 3],
 ) -> Result<Vec<Place>, ElementError> {
-    let [along, across] = base(coords, &quad8::shape([0.0; 2]).1);
+    let [along, across] = quad8::base(coords, &quad8::shape([0.0; 2]).1);
     let middle = along.cross(&across);
     let place = |(point, (xi, weight)): (usize, ([f64; 2], f64))| {
         let (values, slopes) = quad8::shape(xi);
-        let tangents = base(coords, &slopes);
+        let tangents = quad8::base(coords, &slopes);
         let area_vector = tangents[0].cross(&tangents[1]);
         let area = area_vector.norm();
         let sense = area_vector.dot(&middle);

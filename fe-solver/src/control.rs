@@ -147,10 +147,9 @@ impl StepControl {
                 flagged = done.flagged(flagged);
                 let taken = done.taken;
                 length = self.next_length(length, longest, &done);
-                at_most = match done.verdict {
-                    Continue::Stop(reason) => return Ok(reason),
-                    Continue::AtMost(limit) => limit,
-                    Continue::Yes => f64::INFINITY,
+                at_most = match done.verdict.longest_step() {
+                    Ok(longest) => longest,
+                    Err(reason) => return Ok(reason),
                 };
                 progress += taken;
                 step += 1;
@@ -217,10 +216,9 @@ impl StepControl {
                     let done = Self::accept(stage, recorder, step, (entry, signs))?;
                     flagged = done.flagged(flagged);
                     length = self.next_length(length, longest, &done);
-                    at_most = match done.verdict {
-                        Continue::Stop(reason) => return Ok(reason),
-                        Continue::AtMost(limit) => limit,
-                        Continue::Yes => f64::INFINITY,
+                    at_most = match done.verdict.longest_step() {
+                        Ok(longest) => longest,
+                        Err(reason) => return Ok(reason),
                     };
                     progress += this;
                     step += 1;

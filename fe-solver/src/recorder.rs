@@ -72,6 +72,17 @@ pub enum Continue {
     Stop(String),
 }
 
+impl Continue {
+    /// The longest step to go on with, or why to stop.
+    pub(crate) fn longest_step(self) -> Result<f64, String> {
+        match self {
+            Self::Yes => Ok(f64::INFINITY),
+            Self::AtMost(limit) => Ok(limit),
+            Self::Stop(reason) => Err(reason),
+        }
+    }
+}
+
 /// Receives iterations and accepted steps.
 pub trait Recorder {
     /// One iteration was evaluated.

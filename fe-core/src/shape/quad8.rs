@@ -3,6 +3,8 @@
 //! Corners N = (1 + xi xi_a)(1 + eta eta_a)(xi xi_a + eta eta_a - 1)/4; a mid-side node with xi_a = 0 has
 //! N = (1 - xi^2)(1 + eta eta_a)/2, the others likewise.
 
+use nalgebra::Vector3;
+
 /// Natural coordinates of the nodes.
 pub const NODES: [[f64; 2]; 8] = [
     [-1.0, -1.0],
@@ -40,6 +42,14 @@ pub fn shape(xi: [f64; 2]) -> ([f64; 8], [[f64; 2]; 8]) {
         }
     }
     (values, slopes)
+}
+
+/// Base vectors dx/dxi and dx/deta (mm) of the surface through `coords` (mm), from the slopes of the shape functions.
+pub fn base(coords: &[[f64; 3]; 8], slopes: &[[f64; 2]; 8]) -> [Vector3<f64>; 2] {
+    std::array::from_fn(|k| {
+        let terms = slopes.iter().zip(coords);
+        terms.map(|(s, x)| s[k] * Vector3::from(*x)).sum()
+    })
 }
 
 #[cfg(test)]

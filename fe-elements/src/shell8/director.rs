@@ -5,13 +5,12 @@ use fe_core::shape::quad8;
 use nalgebra::Vector3;
 
 use super::DOFS_PER_ELEMENT as N;
-use crate::surface;
 
 /// Unit normals of the surface at the nodes.
 pub(super) fn directors(coords: &[[f64; 3]; 8]) -> Result<[Vector3<f64>; 8], ElementError> {
     let mut directors = [Vector3::zeros(); 8];
     for (point, xi) in quad8::NODES.into_iter().enumerate() {
-        let [along, across] = surface::base(coords, &quad8::shape(xi).1);
+        let [along, across] = quad8::base(coords, &quad8::shape(xi).1);
         let normal = along.cross(&across);
         let determinant = normal.norm();
         if determinant.is_nan() || determinant <= 0.0 {

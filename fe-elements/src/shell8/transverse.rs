@@ -4,7 +4,7 @@ use fe_core::shape::quad8;
 use nalgebra::{Matrix2, Vector3};
 
 use super::DOFS_PER_ELEMENT as N;
-use crate::surface::{Place, base};
+use crate::surface::Place;
 
 /// A row of a strain matrix.
 type Row = [f64; N];
@@ -79,7 +79,7 @@ fn natural_shear(
     xi: [f64; 2],
 ) -> Row {
     let (values, slopes) = quad8::shape(xi);
-    let along = base(coords, &slopes)[direction];
+    let along = quad8::base(coords, &slopes)[direction];
     let director: Vector3<f64> = values.iter().zip(directors).map(|(n, d)| *n * d).sum();
     let mut row = [0.0; N];
     for a in 0..8 {

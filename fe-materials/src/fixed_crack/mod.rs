@@ -172,14 +172,8 @@ impl FixedCrackParameters {
             }
         }
         if self.ft_mpa >= self.fcm_mpa {
-            return Err(MaterialError::Parameter {
-                law: NAME,
-                parameter: "ft_mpa",
-                value: self.ft_mpa,
-                unit: "MPa",
-                allowed: format!("below the compressive strength, {} MPa", self.fcm_mpa),
-                remedy: "give a value in that range".into(),
-            });
+            let allowed = format!("below the compressive strength, {} MPa", self.fcm_mpa);
+            return Err(out_of_range("ft_mpa", self.ft_mpa, "MPa", &allowed));
         }
         if !(0.0..0.5).contains(&self.poisson) {
             return Err(out_of_range("poisson", self.poisson, "-", "[0, 0.5)"));

@@ -69,8 +69,8 @@ pub(super) fn snapshot(beam: &Beam, at: &Snapshot) -> Result<evidence::Snapshot,
                 .sample(e, &at.displacement, &at.state, &mut |s| {
                     // A bar that has yielded and is relieved again has yielded all the same.
                     let has_yielded = s.report.plastic_strain[0] > 0.0;
-                    let least = if has_yielded { 1.0 } else { f64::NEG_INFINITY };
-                    let utilisation = (s.stress[0] / bar.fy_mpa).max(least);
+                    let now = s.stress[0] / bar.fy_mpa;
+                    let utilisation = if has_yielded { now.max(1.0) } else { now };
                     if utilisation > reach.utilisation {
                         (reach.utilisation, reach.x_mm) = (utilisation, s.position[0]);
                     }
