@@ -134,13 +134,10 @@ pub(super) fn lay(
             .iter()
             .map(|cover| Ok(Arc::new(laminate(&sheets.ply, cover, settings)?)))
             .collect::<Result<Vec<_>, BuildError>>()?;
-        for (number, stretch) in wrap.stretches.iter().enumerate() {
+        for (name, stretch) in wrap.sheet_names().zip(&wrap.stretches) {
             let zone = record.zones.len();
             record.zones.push(Zone {
-                name: match wrap.stretches.len() {
-                    1 => wrap.name.clone(),
-                    _ => format!("{} {}", wrap.name, number + 1),
-                },
+                name,
                 x_from_mm: stretch.x_from_mm.get(),
                 x_to_mm: stretch.x_to_mm.get(),
                 side_mm: side(&wrap.faces),

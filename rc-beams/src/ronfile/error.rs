@@ -38,6 +38,7 @@ impl RonError {
             ("", 0..0, Words::empty())
         } else {
             mistyped_number(text, place.start)
+                .or_else(|| mistyped_number(text, behind_comma(text, place.start)?))
                 .unwrap_or_else(|| ("", place, Words::of(&error.code)))
         };
         let field = if parent == path {
@@ -203,6 +204,15 @@ fn mistyped_number(text: &str, at: usize) -> Option<(&str, Range<usize>, Words)>
         .rsplit(|c: char| !c.is_alphanumeric() && c != '_')
         .next()?;
     Some((name, lead.len()..at + tail.len(), words))
+}
+
+/// Place of the digits behind `field: 12,` whose number begins at `at`: in a group a field has one.
+fn behind_comma(text: &str, at: usize) -> Option<usize> {
+    let (before, after) = text.split_at_checked(at)?;
+    let rest = after.trim_start_matches(|c: char| c.is_ascii_digit() || ".+-".contains(c));
+    let tail = rest.strip_prefix(',')?;
+    let decimals = tail.starts_with(|c: char| c.is_ascii_digit());
+    (decimals && before.trim_end().ends_with(':')).then(|| text.len() - tail.len())
 }
 
 /// Name of the file with line and column of a byte, counted from 1.

@@ -170,6 +170,15 @@ impl Sheets {
 }
 
 impl Wrap {
+    /// Names of its sheets, one per stretch: that of the wrap, numbered from 1 where there are several.
+    pub fn sheet_names(&self) -> impl Iterator<Item = String> {
+        let count = self.stretches.len();
+        (1..=count).map(move |number| match count {
+            1 => self.name.clone(),
+            _ => format!("{} {number}", self.name),
+        })
+    }
+
     /// Width of the first strip over the least distance of the centres of two neighbours.
     fn width_ratio(&self, height_mm: f64) -> Option<f64> {
         let strips = self

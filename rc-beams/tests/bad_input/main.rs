@@ -155,6 +155,15 @@ const CASES: &[Case] = &[
         ],
     ),
     (
+        "density_kg_m3: 2540,",
+        "density_kg_m3: 0,254,",
+        "0,254",
+        &[
+            "concrete.density_kg_m3: a number with a decimal comma",
+            "use a decimal point: 0.254",
+        ],
+    ),
+    (
         "length_mm: 3050,",
         "length_mm: 3050 mm,",
         "3050 mm",

@@ -51,6 +51,17 @@ const ON_STRIPS: &[Case] = &[
         "",
         &["measuring.sheet_gauges[1].name: \"sheet_x2217.5\" names two gauges"],
     ),
+    // A wrap named like a strip of the one before.
+    (
+        "        wraps: [",
+        "        wraps: [(name: \"U strips-2\", source: \"\", \
+         stretches: [(x_from_mm: 100, x_to_mm: 150)], \
+         faces: [(face: Side, from_mm: 0, to_mm: 305, angles_deg: [90])]), ",
+        "",
+        &[
+            "sheets.wraps[1].name: \"U strips 2\" and \"U strips-2\" give sheets one column, u_strips_2",
+        ],
+    ),
 ];
 
 const ON_A_CONTINUOUS_SHEET: &[Case] = &[

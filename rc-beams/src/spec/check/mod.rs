@@ -84,13 +84,13 @@ impl Checks<'_> {
         }
     }
 
-    /// Reports a name that gives no column of its own beside those `before`.
+    /// Reports a name that gives no column of its own beside those `before`; whether it gives one.
     fn named_once<'n>(
         &mut self,
         path: &str,
         (what, name): (&str, &str),
         mut before: impl Iterator<Item = &'n String>,
-    ) {
+    ) -> bool {
         let column = slug(name);
         let path = format!("{path}.name");
         let remedy = "the results are written by name, its letters and digits in columns";
@@ -98,6 +98,7 @@ impl Checks<'_> {
             let message =
                 format!("{name:?} cannot name a column; allowed: letters and digits, one at least");
             self.report(path, message, remedy);
+            false
         } else if let Some(other) = before.find(|other| slug(other) == column) {
             let message = if other == name {
                 format!("{name:?} names two {what}; allowed: a name of its own")
@@ -107,6 +108,9 @@ impl Checks<'_> {
                 )
             };
             self.report(path, message, remedy);
+            false
+        } else {
+            true
         }
     }
 

@@ -56,8 +56,13 @@ impl Checks<'_> {
             self.at_least_one("sheets.wraps", "wraps", sheets.wraps.len());
             for (i, wrap) in sheets.wraps.iter().enumerate() {
                 let path = format!("sheets.wraps[{i}]");
-                let before = sheets.wraps[..i].iter().map(|w| &w.name);
-                self.named_once(&path, ("wraps", &wrap.name), before);
+                let before = &sheets.wraps[..i];
+                let others: Vec<String> = before.iter().flat_map(Wrap::sheet_names).collect();
+                let before = before.iter().map(|w| &w.name);
+                if self.named_once(&path, ("wraps", &wrap.name), before) {
+                    wrap.sheet_names()
+                        .all(|name| self.named_once(&path, ("sheets", &name), others.iter()));
+                }
                 self.wrap(&path, wrap);
                 for (k, cover) in wrap.faces.iter().enumerate() {
                     let path = format!("{path}.faces[{k}]");
