@@ -111,6 +111,7 @@ impl BondSlip {
             let (position, along, values, _) = line3::map(coords, xi);
             let determinant = along.norm();
             if determinant.is_nan() || along.dot(&chord) <= 0.0 {
+                let determinant = determinant.copysign(along.dot(&chord));
                 return Err(ElementError::Jacobian { point, determinant });
             }
             let inside = |xi: &[f64; 3]| xi.iter().all(|c| c.abs() <= 1.0 + 1e-6);

@@ -139,6 +139,7 @@ impl Interface16 {
             let determinant = normal.norm();
             let scale = along.norm() * across.norm();
             if determinant.is_nan() || determinant <= 1e-9 * scale || normal.dot(&middle) <= 0.0 {
+                let determinant = determinant.copysign(normal.dot(&middle));
                 return Err(ElementError::Jacobian { point, determinant });
             }
             points.push(Point {

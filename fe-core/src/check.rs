@@ -36,8 +36,8 @@ pub fn held(model: &Model, conditions: &Conditions) -> Result<(), ModelError> {
     Ok(())
 }
 
-/// Makes sure that no two nodes that elements use lie at one place without an element between them: a seam that was
-/// not meant. Models with slits or notches have such nodes on purpose.
+/// Makes sure that no two nodes that elements use lie at one place without an element between them, or others between nodes
+/// there: a seam that was not meant. Models with slits or notches have such nodes on purpose.
 ///
 /// # Errors
 ///
@@ -57,18 +57,25 @@ pub fn joined(model: &Model) -> Result<(), ModelError> {
         .collect();
     let x = |n: NodeId| mesh.nodes()[n];
     order.sort_by(|&a, &b| x(a)[0].total_cmp(&x(b)[0]).then(a.cmp(&b)));
-    for (i, &a) in order.iter().enumerate() {
+    let pairs = order.iter().enumerate().flat_map(|(i, &a)| {
         let close = order[i + 1..]
             .iter()
-            .take_while(|&&b| x(b)[0] - x(a)[0] <= near);
-        for &b in close {
-            let same = (Vector3::from(x(b)) - Vector3::from(x(a))).norm() <= near;
-            if same && !touching[a].iter().any(|e| touching[b].contains(e)) {
-                return Err(ModelError::Seam {
-                    nodes: [a.min(b), a.max(b)],
-                    position: x(a),
-                });
-            }
+            .take_while(move |&&b| x(b)[0] - x(a)[0] <= near);
+        close
+            .filter(move |&&b| (Vector3::from(x(b)) - Vector3::from(x(a))).norm() <= near)
+            .map(move |&b| (a, b))
+    });
+    let mut root: Vec<usize> = (0..touching.len()).collect();
+    let between = |(a, b): &(usize, usize)| touching[*a].iter().any(|e| touching[*b].contains(e));
+    for (a, b) in pairs.clone().filter(between) {
+        join(&mut root, a, b);
+    }
+    for (a, b) in pairs {
+        if find(&mut root, a) != find(&mut root, b) {
+            return Err(ModelError::Seam {
+                nodes: [a.min(b), a.max(b)],
+                position: x(a),
+            });
         }
     }
     Ok(())
@@ -83,8 +90,7 @@ fn parts(model: &Model) -> Vec<Vec<NodeId>> {
         let nodes = element.nodes();
         for &node in nodes {
             used[node] = true;
-            let (a, b) = (find(&mut root, nodes[0]), find(&mut root, node));
-            root[a.max(b)] = a.min(b);
+            join(&mut root, nodes[0], node);
         }
     }
     let mut parts: Vec<Vec<NodeId>> = vec![Vec::new(); n];
@@ -94,6 +100,11 @@ fn parts(model: &Model) -> Vec<Vec<NodeId>> {
     }
     parts.retain(|part| !part.is_empty());
     parts
+}
+
+fn join(root: &mut [usize], a: usize, b: usize) {
+    let (a, b) = (find(root, a), find(root, b));
+    root[a.max(b)] = a.min(b);
 }
 
 fn find(root: &mut [usize], mut node: usize) -> usize {

@@ -85,13 +85,13 @@ pub enum ElementError {
     },
     /// The mapping is not invertible.
     #[error(
-        "Jacobian determinant {determinant:.4e} mm3 at integration point {point} is not positive; \
+        "Jacobian determinant {determinant:.4e} at point {point} is not positive; \
          check the node order or the distortion of the element"
     )]
     Jacobian {
-        /// Integration point, counted from 0.
+        /// Integration point, one of the 3x3x3 points of a cell with fewer, or corner, counted from 0.
         point: usize,
-        /// Value found.
+        /// Value found (mm of a line, mm2 of a face, mm3 of a cell), negative where it is turned over.
         determinant: f64,
     },
     /// A bar leaves the mesh.

@@ -129,14 +129,20 @@ impl Ledger {
             .resize_with(model.elements().len(), Seen::default);
         self.weighed
             .resize_with(model.elements().len(), Seen::default);
-        self.weighed
+        let failed = self
+            .weighed
             .par_iter_mut()
             .zip(&self.elements)
             .enumerate()
-            .try_for_each(|(e, (now, seen))| {
-                now.follow(seen, model.elements()[e].as_ref(), (before, u), element(e))
-                    .map_err(|source| model.locate(e, source))
-            })?;
+            .filter_map(|(e, (now, seen))| {
+                let at = (model.elements()[e].as_ref(), element(e));
+                let followed = now.follow(seen, at.0, (before, u), at.1);
+                followed.err().map(|source| (e, source))
+            });
+        // The first element that fails, whatever the order in which threads come to them.
+        if let Some((e, source)) = failed.min_by_key(|(e, _)| *e) {
+            return Err(model.locate(e, source));
+        }
         let mut external = vec![0.0; u.len()];
         conditions.external(lambda, &mut external);
         let mut internal = vec![0.0; u.len()];

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::dof::Dof;
 use crate::mesh::{Mesh, NodeId};
 
-/// Positions closer than this (mm) are the same.
+/// Grid (mm) to which positions are rounded; those of one place are the same.
 const SAME: f64 = 1e-6;
 
 /// Nodes whose displacement is that of another node, the leader, times a factor for each direction:

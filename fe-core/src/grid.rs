@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::mesh::{CellKind, Mesh, MeshError, NodeId};
 
-/// Nodes within half of this (mm) along every axis are one; those farther apart than all of it are two.
+/// Nodes within half of this (mm) along every axis are one; those farther apart than one and a half of it are two.
 const MERGE: f64 = 1e-6;
 
 /// Builds a mesh of hex20 boxes from grid lines; boxes whose lines coincide on a common face share the
@@ -86,6 +86,11 @@ impl GridBuilder {
     fn node(&mut self, position: [f64; 3]) -> NodeId {
         // A node next door may have been rounded either way, so both neighbours are asked.
         let scaled = position.map(|c| c / MERGE);
+        if !scaled.iter().all(|c| c.is_finite()) {
+            // Not rounded to a place of others: the mesh refuses it.
+            self.nodes.push(position);
+            return self.nodes.len() - 1;
+        }
         for corner in 0..8 {
             let key = std::array::from_fn(|k| {
                 let up = corner >> k & 1 == 1;
@@ -109,7 +114,7 @@ impl GridBuilder {
     ///
     /// # Errors
     ///
-    /// [`MeshError::NotFinite`] for a line that is not a number, [`MeshError::NoCell`] for a box of fewer than two lines in
+    /// [`MeshError::NotFinite`] for a line that is not a number, [`MeshError::NoCell`] for a block without a cell: boxes of fewer than two lines in
     /// some direction.
     pub fn finish(self) -> Result<Mesh, MeshError> {
         let mut mesh = Mesh::new(self.nodes)?;

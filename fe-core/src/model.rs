@@ -52,6 +52,14 @@ pub enum ModelError {
         /// Its node.
         node: NodeId,
     },
+    /// A node follows one that follows another itself.
+    #[error("node {node} follows node {leader}, which follows another: let it follow that one")]
+    Chain {
+        /// The node.
+        node: NodeId,
+        /// The node it follows.
+        leader: NodeId,
+    },
     /// A part of the model can move as a rigid body.
     #[error(
         "the part of {nodes} nodes with node {node} at {position:?} mm can {motion}: support it, or connect it to the rest"
@@ -141,8 +149,8 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// [`ModelError::NoSuchNode`] for an element on a node that the mesh does not have, [`ModelError::OnFollower`] for one on a
-    /// follower.
+    /// [`ModelError::NoSuchNode`] for an element or follower on a node that the mesh does not have, [`ModelError::OnFollower`]
+    /// for an element on a follower, [`ModelError::Chain`] for a follower of a follower.
     pub fn with_followers(
         mesh: Mesh,
         elements: Vec<Box<dyn Element>>,
@@ -152,6 +160,15 @@ impl Model {
         for (element, e) in elements.iter().enumerate() {
             if let Some(&node) = e.nodes().iter().find(|&&n| followers.of(n).0 != n) {
                 return Err(ModelError::OnFollower { element, node });
+            }
+        }
+        let nodes = mesh.nodes().len();
+        for (node, leader, _) in followers.iter() {
+            if let Some(node) = [node, leader].into_iter().find(|&n| n >= nodes) {
+                return Err(ModelError::NoSuchNode { node, nodes });
+            }
+            if followers.of(leader).0 != leader {
+                return Err(ModelError::Chain { node, leader });
             }
         }
         Ok(Self {
@@ -331,7 +348,8 @@ impl Conditions {
     ///
     /// # Errors
     ///
-    /// [`ModelError::EmptySet`] for a set without nodes, [`ModelError::UnusedDof`] for a node without the DOF.
+    /// [`ModelError::EmptySet`] for a set without nodes, [`ModelError::UnusedDof`] for a node without the DOF; no node is fixed
+    /// then.
     pub fn fix_set(&mut self, model: &Model, set: &str, dof: Dof) -> Result<(), ModelError> {
         let nodes = model.mesh().set(set);
         if nodes.is_empty() {
@@ -340,9 +358,12 @@ impl Conditions {
                 known: model.mesh().set_names().collect::<Vec<_>>().join(", "),
             });
         }
-        nodes
-            .iter()
-            .try_for_each(|&node| self.fix(model, node, dof))
+        let mut fixed = self.clone();
+        for &node in nodes {
+            fixed.fix(model, node, dof)?;
+        }
+        *self = fixed;
+        Ok(())
     }
 
     /// Moves a DOF by `rate` (mm) per unit of the load factor. Of two conditions on one DOF, fixings included, the later one

@@ -31,6 +31,7 @@ pub fn principal(t: &Matrix3<f64>) -> Principal {
 ///
 /// If `out` is shorter than `tensors`.
 pub fn principal_of_many(tensors: &[Vector6<f64>], out: &mut [Principal]) {
+    assert!(out.len() >= tensors.len(), "room for every tensor");
     Arch::new().dispatch(Many { tensors, out });
 }
 

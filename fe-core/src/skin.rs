@@ -3,6 +3,8 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use nalgebra::{DMatrix, DVector};
+
 use crate::mesh::{CellKind, Mesh, MeshError, NodeId};
 use crate::shape::hex20;
 
@@ -67,9 +69,25 @@ pub fn outer_faces(mesh: &Mesh, blocks: &[&str]) -> Vec<Face> {
 /// meet at an edge. Faces that share a node share its copies.
 #[derive(Debug)]
 pub struct Layers {
-    /// Sum of the distinct normals of the faces at a node.
+    /// Where a node goes per distance from the faces at it: d with n_i . d = 1 for their distinct normals.
     directions: BTreeMap<NodeId, [f64; 3]>,
     copies: BTreeMap<(NodeId, usize), NodeId>,
+}
+
+/// The shortest d with n_i . d = 1 for all `normals`, in the least-squares sense: their sum where they are perpendicular.
+fn away(normals: &[[f64; 3]]) -> [f64; 3] {
+    let dot = |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
+    let mut pairs = normals
+        .iter()
+        .enumerate()
+        .flat_map(|(i, a)| normals[..i].iter().map(move |b| dot(a, b)));
+    if pairs.all(|cos| cos.abs() < SAME_NORMAL) {
+        return std::array::from_fn(|k| normals.iter().map(|n| n[k]).sum());
+    }
+    let rows = DMatrix::from_fn(normals.len(), 3, |i, k| normals[i][k]);
+    let ones = DVector::repeat(normals.len(), 1.0);
+    let d = rows.svd(true, true).solve(&ones, SAME_NORMAL);
+    d.map_or([0.0; 3], |d| [d[0], d[1], d[2]])
 }
 
 /// Normals closer than this are one.
@@ -89,9 +107,8 @@ impl Layers {
                 }
             }
         }
-        let sum = |n: Vec<[f64; 3]>| std::array::from_fn(|k| n.iter().map(|n| n[k]).sum());
         Self {
-            directions: normals.into_iter().map(|(id, n)| (id, sum(n))).collect(),
+            directions: normals.into_iter().map(|(id, n)| (id, away(&n))).collect(),
             copies: BTreeMap::new(),
         }
     }

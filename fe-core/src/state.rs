@@ -7,8 +7,8 @@ use crate::element::Element;
 /// Internal variables of all elements in flat arrays.
 ///
 /// Laws read `base` and write `trial`. `base` equals `committed` at the start of a step; during the
-/// step it takes up only what has been latched (the axes of new cracks). Only [`Self::commit`] and
-/// [`Self::roll_back`] change `committed` and `base` wholesale.
+/// step it takes up only what has been latched (the axes of new cracks). [`Self::commit`],
+/// [`Self::roll_back`], [`Self::set_base`] and [`Self::advance`] change `committed` or `base` wholesale.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateStore {
     offsets: Vec<usize>,

@@ -41,6 +41,10 @@ pub fn face_traction(
         };
         let normal = tangent(0).cross(&tangent(1));
         let area = normal.norm();
+        if area == 0.0 {
+            // A face that has collapsed, as of a wedge.
+            continue;
+        }
         let t = traction(normal / area) * (w * area);
         for ((_, f), value) in forces.iter_mut().zip(values) {
             for k in 0..3 {

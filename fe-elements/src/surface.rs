@@ -4,7 +4,7 @@ use fe_core::element::ElementError;
 use fe_core::shape::quad8;
 use nalgebra::{Matrix2, Rotation2, Vector2, Vector3};
 
-use crate::quad8::{QuadRule, gradients, invert};
+use crate::quad8::{FLAT, QuadRule, gradients, invert};
 
 /// Smallest angle between the direction of axis 1 and the normal (degrees).
 const LEAST_ANGLE: f64 = 1.0;
@@ -61,7 +61,7 @@ impl Place {
 ///
 /// # Errors
 ///
-/// [`ElementError::Jacobian`] where the surface degenerates or is folded against its normal in the middle,
+/// [`ElementError::Jacobian`] where the surface degenerates or is folded against its normal in the middle, also at a corner,
 /// [`ElementError::Input`] for an axis that is no direction or (almost) normal to the surface.
 pub(crate) fn places(
     coords: &[[f64; 3]; 8],
@@ -70,6 +70,14 @@ pub(crate) fn places(
 ) -> Result<Vec<Place>, ElementError> {
     let [along, across] = quad8::base(coords, &quad8::shape([0.0; 2]).1);
     let middle = along.cross(&across);
+    for (point, xi) in quad8::NODES.into_iter().take(4).enumerate() {
+        let [along, across] = quad8::base(coords, &quad8::shape(xi).1);
+        let area = along.cross(&across).dot(&middle) / middle.norm();
+        if area < -FLAT * middle.norm() {
+            let determinant = area;
+            return Err(ElementError::Jacobian { point, determinant });
+        }
+    }
     let place = |(point, (xi, weight)): (usize, ([f64; 2], f64))| {
         let (values, slopes) = quad8::shape(xi);
         let tangents = quad8::base(coords, &slopes);

@@ -60,6 +60,7 @@ impl Truss3 {
             let determinant = along.norm();
             let chord = Vector3::from(coords[1]) - Vector3::from(coords[0]);
             if determinant.is_nan() || along.dot(&chord) <= 0.0 {
+                let determinant = determinant.copysign(along.dot(&chord));
                 return Err(ElementError::Jacobian { point, determinant });
             }
             let mut row = [0.0; 9];

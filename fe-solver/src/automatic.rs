@@ -108,20 +108,36 @@ impl Automatic {
     /// Looks at the last accepted step, once.
     fn look_back(&mut self, stage: &Stage<'_>) -> Result<(), SolverError> {
         let steps = stage.counters().steps;
+        if steps < self.seen {
+            // What was found in another stage says nothing about this one.
+            *self = Self {
+                largest: self.largest,
+                ..Self::new(self.settings)
+            };
+        }
         if std::mem::replace(&mut self.seen, steps) == steps {
             return Ok(());
         }
         let (Some(last), Some((du, _))) = (Energies::last(stage)?, stage.previous()) else {
             return Ok(());
         };
+        let largest = du.iter().fold(0.0_f64, |a, d| a.max(d.abs()));
+        // Steps accepted by another driver, or recalled, have no length here.
+        let length = if self.length > 0.0 {
+            self.length
+        } else {
+            largest
+        };
+        if largest == 0.0 {
+            return Ok(());
+        }
         if self.control == Control::Dissipation {
-            let largest = du.iter().fold(0.0_f64, |a, d| a.max(d.abs()));
-            self.rate *= (self.length / largest).clamp(PACE.0, PACE.1);
+            self.rate *= (length / largest).clamp(PACE.0, PACE.1);
             return Ok(());
         }
         let share = last.dissipated / last.work.abs();
         if share > DISSIPATIVE {
-            self.rate = last.dissipated / self.length;
+            self.rate = last.dissipated / length;
             let reason = format!(
                 "the last step dissipated {:.0} % of its work",
                 100.0 * share
@@ -258,15 +274,20 @@ impl Driver for Automatic {
             for (other, mode) in self.others(stage, result.as_ref().ok()) {
                 stage.roll_back();
                 self.control = other;
-                if mode.is_some() {
-                    self.mode = mode;
-                }
+                let kept = mode.map(|mode| self.mode.replace(mode));
                 let again = self.run(stage, request, log);
                 self.control = usual;
-                if again.as_ref().is_ok_and(|a| a.converged) {
-                    self.switch(other, "a step of the same length failed under the other");
-                    (result, serves) = (again, true);
-                    break;
+                match again {
+                    Ok(attempt) if attempt.converged => {
+                        self.switch(other, "a step of the same length failed under the other");
+                        (result, serves) = (Ok(attempt), true);
+                        break;
+                    }
+                    Err(error) if !error.is_recoverable() => return Err(error),
+                    Ok(_) | Err(_) => {}
+                }
+                if let Some(before) = kept {
+                    self.mode = before;
                 }
             }
         }

@@ -128,9 +128,14 @@ fn branches(
         (_, Some(first)) => Some(format!(
             "{jumps} of {steps} steps up to the peak are jumps and {count} are {first}"
         )),
-        (0, None) => (capacity.peak + 1 == path.len()).then(|| {
-            "the load is largest at the end of the path, a lower bound of the peak".into()
-        }),
+        (0, None) if capacity.is_reached() => None,
+        (0, None) if capacity.peak + 1 == path.len() => {
+            Some("the load is largest at the end of the path, a lower bound of the peak".into())
+        }
+        (0, None) => Some(format!(
+            "the load falls by {:.1} % only behind its peak, which may be a lower bound",
+            100.0 * capacity.post_peak_drop
+        )),
         (_, None) => Some(format!(
             "{jumps} of {steps} steps up to the peak are jumps, beyond which other branches may exist"
         )),
@@ -229,7 +234,7 @@ impl Verdict {
     /// criterion. That step is no jump: across a jump P* is the work of forces no static state
     /// balances, not an error of the load. Limited trust when a step is flagged, when the path jumps
     /// or passes unstable equilibria before the peak (other equilibrium branches exist then, and which one
-    /// the path takes depends on the steps), or when the load is largest at the end of the path. A motion is trusted
+    /// the path takes depends on the steps), or when the peak is not [reached](Capacity::is_reached). A motion is trusted
     /// within limits as long as its kinetic energy stays below [`MAX_KINETIC`] from [`APPROACH`] of the peak on, else
     /// not; laws that lag behind as long as viscosity has taken no more than [`MAX_VISCOUS`] of the work; steps without
     /// iteration by their unbalanced force.

@@ -36,7 +36,7 @@ pub struct StepControl {
     pub longest_share: f64,
     /// Shortest step.
     pub shortest: f64,
-    /// Load factor at which the stage ends; under a path constraint the length of the path.
+    /// Load factor to be added by this run; under a path constraint the length of its path.
     pub end: f64,
     /// Relative residual a step must meet.
     pub criterion: f64,
@@ -133,8 +133,8 @@ impl StepControl {
             if remaining <= 1e-9 * self.end {
                 return Ok(format!("reached the end of the stage at {}", self.end));
             }
-            // A last sliver shorter than half a step is merged into this one.
-            let this = if remaining < 1.5 * length && remaining <= longest {
+            // A last sliver shorter than half a step is merged into this one, unless that has failed.
+            let this = if attempts == 0 && remaining < 1.5 * length && remaining <= longest {
                 remaining
             } else {
                 length.min(remaining)

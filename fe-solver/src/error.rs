@@ -20,7 +20,7 @@ pub enum SolverError {
     #[error(
         "the stiffness is singular at {dof} of node {node} at {position:?} mm (pivot ratio {ratio:.1e}): \
          the model, or a part of it, is not held there; add a support or connect the part, or, if it has just come \
-         loose, end before"
+         loose, end before (multipliers, with zeros on the diagonal, are not served)"
     )]
     Singular {
         /// Node.
@@ -29,7 +29,7 @@ pub enum SolverError {
         dof: Dof,
         /// Position of the node (mm).
         position: [f64; 3],
-        /// Smallest over largest pivot.
+        /// Pivot over the diagonal entry it came from.
         ratio: f64,
     },
     /// No step could be completed, not even the shortest.

@@ -158,7 +158,9 @@ impl Driver for Explicit {
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
         let s = self.settings;
-        if stage.counters().steps == 0 {
+        // A motion begins at rest, also where another driver has led to.
+        let begun = self.motion.mass.len() == stage.restrict(stage.displacement()).len();
+        if stage.counters().steps == 0 || !begun {
             self.motion = Self::start(stage)?;
         }
         let mut motion = self.motion.clone();

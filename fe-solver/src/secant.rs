@@ -304,9 +304,14 @@ impl SecantAnderson {
         after > 0 && iterations >= after
     }
 
-    /// Share of the accepted load lost in the last evaluation; not a number where the load factor drives forces only.
+    /// Share of the accepted load lost in the last evaluation, nothing where there was none; not a number where the load
+    /// factor drives forces only.
     fn loss(stage: &Stage<'_>) -> f64 {
-        1.0 - stage.load() / stage.accepted_load()
+        let (load, accepted) = (stage.load(), stage.accepted_load());
+        if accepted == 0.0 && load != 0.0 {
+            return 0.0;
+        }
+        1.0 - load / accepted
     }
 
     /// Residual of the inviscid law at `free`; the trial state becomes the inviscid one.

@@ -175,6 +175,7 @@ fn sheets() -> SheetLayout {
             name: format!("strip {}", i + 1),
             x_mm: [from, from + 75.0],
             y_mm: [0.0, 305.0],
+            covered_mm: 305.0,
         }
     };
     SheetLayout {

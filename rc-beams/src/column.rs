@@ -1,5 +1,16 @@
 //! Names as columns of tables.
 
+/// Name of the shear span under test; its columns begin with it.
+pub(crate) const TEST_SPAN: &str = "test span";
+
+/// Columns of `gauges.csv` that are no gauge.
+pub(crate) const GAUGE_COLUMNS: [&str; 2] = ["deflection_mm", "load_kn"];
+
+/// Column of the gauge on a longitudinal bar at `x` (mm).
+pub(crate) fn bar_gauge(bar: &str, x: f64) -> String {
+    format!("{bar}_x{x}")
+}
+
 /// A name as part of a column: its words in small letters, joined by underscores.
 pub(crate) fn slug(name: &str) -> String {
     let plain = name.to_lowercase();

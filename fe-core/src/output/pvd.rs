@@ -41,6 +41,7 @@ impl Pvd {
     ///
     /// [`OutputError::Io`]; the file on disk is then the one before the addition.
     pub fn add(&mut self, time: f64, files: &[String]) -> Result<(), OutputError> {
+        let before = self.entries.len();
         self.entries
             .extend(files.iter().enumerate().map(|(part, file)| Entry {
                 time,
@@ -48,6 +49,7 @@ impl Pvd {
                 file: escape(file),
             }));
         self.rewrite()
+            .inspect_err(|_| self.entries.truncate(before))
     }
 
     fn rewrite(&self) -> Result<(), OutputError> {

@@ -237,6 +237,15 @@ impl<'a, K: Kinematics> PointDriver<'a, K> {
                 .iter()
                 .fold(self.scale, |m, s| m.max(s.abs()));
             let tolerance = self.settings.tolerance * largest;
+            let stress = K::components(&response.stress);
+            if let Some(component) = stress.iter().position(|s| !s.is_finite()) {
+                return Err(Failure::Residual {
+                    component,
+                    residual: stress[component],
+                    tolerance,
+                    iterations,
+                });
+            }
             if residual.is_empty() || residual.amax() <= tolerance {
                 self.scale = largest;
                 break;

@@ -102,7 +102,7 @@ pub fn is_affine(coords: &[[f64; 3]; 20]) -> bool {
 }
 
 /// Natural coordinates of a point, by Newton iteration; `None` when it does not converge or the point
-/// lies farther than half a cell outside.
+/// lies outside by more than a quarter of the cell, |xi| > 1.5.
 pub fn inverse_map(coords: &[[f64; 3]; 20], point: [f64; 3]) -> Option<[f64; 3]> {
     let target = Vector3::from(point);
     let mut xi = [0.0; 3];

@@ -2,7 +2,7 @@
 
 use super::random::Random;
 
-/// Most steps between two turning points.
+/// Between two turning points lie fewer steps than this.
 const LONGEST_LEG: f64 = 8.0;
 
 /// A polyline through random turning points inside the box |x_i| <= a_i, walked in random steps.

@@ -191,12 +191,16 @@ pub(super) fn cut(
         let Some((host, exit)) = hosts.iter().enumerate().find_map(ahead) else {
             return Err(ElementError::no_host(bar, segment.at(reached)));
         };
-        pieces.push(Piece {
-            host,
-            ends: [segment.at(reached), segment.at(exit)],
-            direction: segment.direction / length,
-            start: travelled + reached * length,
-        });
+        // A bar along a face of a distorted host leaves it, but for rounding, and comes back.
+        match pieces.last_mut().filter(|last| last.host == host) {
+            Some(last) => last.ends[1] = segment.at(exit),
+            None => pieces.push(Piece {
+                host,
+                ends: [segment.at(reached), segment.at(exit)],
+                direction: segment.direction / length,
+                start: travelled + reached * length,
+            }),
+        }
         reached = exit;
     }
     Ok(pieces)

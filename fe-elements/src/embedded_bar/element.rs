@@ -6,7 +6,7 @@ use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
 use fe_core::followers::Followers;
 use fe_core::kinematics::Axial;
-use fe_core::material::{Material, Operator};
+use fe_core::material::{Material, Operator, PointContext};
 use fe_core::mesh::NodeId;
 use fe_core::shape::{line3, quadrature};
 use nalgebra::{Vector1, Vector3};
@@ -53,7 +53,7 @@ impl EmbeddedBar {
                 axial_row(g, piece.direction)
             })?;
         }
-        Ok(element)
+        element.admitted()
     }
 
     /// The `piece` of a bar that slips, on the nodes `own`, its ends first, then its middle. The axial strain is
@@ -82,7 +82,15 @@ impl EmbeddedBar {
         for point in &mut element.points {
             point.shear = point.shear.as_ref().map(|shear| shear.after(9));
         }
-        Ok(element)
+        element.admitted()
+    }
+
+    /// The element, unless its law refuses the length of the bar in it.
+    fn admitted(self) -> Result<Self, ElementError> {
+        self.law
+            .admit(&PointContext::new(self.length()))
+            .map_err(|source| ElementError::Material { point: 0, source })?;
+        Ok(self)
     }
 
     /// A bar with no pieces yet.
@@ -254,7 +262,7 @@ impl Element for EmbeddedBar {
         out: ElementSystem<'_>,
     ) -> Result<(), ElementError> {
         let law = self.law.as_ref();
-        let point_ctx = points::context(0.0, ctx);
+        let point_ctx = points::context(self.length(), ctx);
         let full = self.slides() && ctx.operator == Operator::Tangent;
         let (trial, slid) = trial.split_at_mut(self.axial_len());
         slid.copy_from_slice(&committed[self.axial_len()..]);

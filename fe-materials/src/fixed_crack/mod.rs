@@ -67,6 +67,9 @@ pub use shear_transfer::ShearTransfer;
 
 const NAME: &str = "fixed crack";
 
+/// Relative difference of strengths that are the same but for rounding.
+const SAME_STRENGTH: f64 = 1e-9;
+
 /// Points whose principal strains are found together: those of a fully integrated hexahedron.
 const TOGETHER: usize = 27;
 
@@ -150,7 +153,7 @@ impl FixedCrackParameters {
     }
 
     /// Length l = max(h, s) (mm) over which the strains of a crack band of width h (mm) make up one crack, which opens
-    /// by w = l kt and slips by l gamma. A band as wide as the spacing of cracks or wider holds one crack; narrower ones share it
+    /// by w = l kt (struts) or, less what is elastic, l (kt - ft/E) (interlock), and slips by l gamma. A band as wide as the spacing of cracks or wider holds one crack; narrower ones share it
     /// with their neighbours, or smaller elements would mean more and finer cracks.
     pub const fn crack_reach(&self, band_width: f64) -> f64 {
         band_width.max(self.crack_spacing_mm)
@@ -324,7 +327,7 @@ impl FixedCrack {
         Ok(())
     }
 
-    /// A law with Rankine onset and, where `onset` is given, Ottosen onset.
+    /// A law with Rankine onset and, where `onset` is given, Ottosen onset: a surface of the same strength.
     ///
     /// # Errors
     ///
@@ -334,6 +337,11 @@ impl FixedCrack {
         onset: Option<crate::concrete::Ottosen>,
     ) -> Result<Self, MaterialError> {
         p.check()?;
+        let other = onset.as_ref().map(crate::concrete::Ottosen::strength);
+        if let Some(other) = other.filter(|f| (f / p.fcm_mpa - 1.0).abs() > SAME_STRENGTH) {
+            let allowed = format!("that of the surface of onset, {other}");
+            return Err(out_of_range("fcm_mpa", p.fcm_mpa, "MPa", &allowed));
+        }
         Ok(Self {
             p,
             shear_modulus: p.young_mpa / (2.0 * (1.0 + p.poisson)),
@@ -491,6 +499,7 @@ impl Material<Solid> for FixedCrack {
             };
         }
         let local = strain_into(&state.axes, strain);
+        // What the strain has beyond that at the onset.
         let opening: Vector3<f64> =
             local.fixed_rows::<3>(0) - Vector3::from(self.strains_at_onset(state.onset));
         let (axis, crack_strain) = opening.argmax();

@@ -20,6 +20,16 @@ pub enum LinearError {
         /// Position in the value array.
         position: usize,
     },
+    /// Values or right-hand side of another pattern.
+    #[error("{given} {what} for a pattern of {expected}")]
+    Mismatch {
+        /// Entries of the matrix or of the right-hand side.
+        what: &'static str,
+        /// How many there are.
+        given: usize,
+        /// How many the pattern has.
+        expected: usize,
+    },
     /// The factor cannot be held in memory.
     #[error("the factor does not fit in memory; use a coarser mesh")]
     OutOfMemory,

@@ -68,8 +68,8 @@ pub(super) struct Entry {
     source: u32,
 }
 
-/// Set in the source of an entry of the lower triangle that elimination makes one of the upper. A matrix has less than
-/// 2^31 entries, see the assembly.
+/// Set in the source of an entry of the lower triangle that elimination makes one of the upper. Patterns of more
+/// than 2^31 entries are refused.
 const SWAPPED: u32 = 1 << 31;
 
 impl Entry {
@@ -111,6 +111,9 @@ pub(super) struct Fronts {
 impl Fronts {
     /// Fronts of a tree; none if a panel has more entries than can be numbered.
     pub(super) fn new(pattern: &Sparsity, graph: &Graph, tree: &Tree) -> Option<Self> {
+        if pattern.nnz() > SWAPPED as usize {
+            return None;
+        }
         let mut out = Self {
             list: Vec::new(),
             equation: Vec::new(),

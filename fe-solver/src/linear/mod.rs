@@ -4,6 +4,10 @@
 //! it is not, which also counts the negative pivots; L U, pivoting inside a front, for unsymmetric values. Multifrontal
 //! (Duff and Reid 1983) on dense kernels; independent subtrees in parallel, with the same bits for any number of threads.
 //!
+//! Pivots stay in their front. That serves stiffnesses, whose diagonal is positive, also where they have become indefinite;
+//! a regular matrix with zeros on its diagonal, as of multipliers, may be refused as singular. Prescribed displacements
+//! and followers need none.
+//!
 //! A matrix near the one whose L L^T is at hand may be solved by conjugate gradients with that factor instead, where
 //! counted operations say that it is cheaper, see [`LinearSolver::renew`].
 
@@ -71,7 +75,7 @@ pub struct LinearStats {
     pub refinements: usize,
     /// Iterations of conjugate gradients.
     pub iterations: usize,
-    /// Relative residual |b - A x|/|b| of the last solution.
+    /// Relative residual |b - A x|/|b| of the last solution by a factor, before its refinement.
     pub last_residual: f64,
 }
 
@@ -88,7 +92,8 @@ pub trait LinearSolver {
     ///
     /// # Errors
     ///
-    /// [`LinearError::Singular`] naming an equation that takes part in a zero-energy mode.
+    /// [`LinearError::Singular`] naming an equation that takes part in a zero-energy mode, [`LinearError::NotFinite`],
+    /// [`LinearError::NotAnalysed`], and [`LinearError::Mismatch`] for values of another pattern.
     fn factorize(&mut self, values: &MatrixValues) -> Result<Inertia, LinearError>;
 
     /// Makes `values` the matrix of the next solutions and factorises them only if that is cheaper: not if the present factor
@@ -106,7 +111,8 @@ pub trait LinearSolver {
     ///
     /// # Errors
     ///
-    /// [`LinearError::NotFactorized`] before a factorisation.
+    /// [`LinearError::NotFactorized`] before a factorisation, [`LinearError::Mismatch`] for another number of equations, and those
+    /// of [`Self::factorize`] where one was put off.
     fn solve_in_place(&mut self, rhs: &mut [f64]) -> Result<(), LinearError>;
 
     /// Applies the inverse of the last factor once, in place, unchecked: for iterations whose operator is only near
@@ -155,6 +161,11 @@ impl DirectSolver {
         self.put_off.is_some()
     }
 
+    /// The signs of the matrix of the next solutions, if it is factorised.
+    pub fn signs(&self) -> Option<Inertia> {
+        self.current.filter(|_| !self.is_put_off())
+    }
+
     /// The signs of the factor at hand, if it is that of `values`.
     fn known(&self, values: &MatrixValues) -> Option<Inertia> {
         let factorised = self.put_off.is_none() && self.values == *values;
@@ -192,6 +203,18 @@ impl DirectSolver {
     }
 }
 
+/// Refuses what has another length than the pattern that was analysed.
+fn fits(what: &'static str, given: usize, expected: usize) -> Result<(), LinearError> {
+    if given == expected {
+        return Ok(());
+    }
+    Err(LinearError::Mismatch {
+        what,
+        given,
+        expected,
+    })
+}
+
 impl LinearSolver for DirectSolver {
     fn analyze(&mut self, pattern: &Sparsity) -> Result<(), LinearError> {
         (self.analysis, self.factor, self.current) = (None, None, None);
@@ -220,9 +243,13 @@ impl LinearSolver for DirectSolver {
         let (Some(analysis), Some(factor)) = (&self.analysis, &mut self.factor) else {
             return Err(LinearError::NotAnalysed);
         };
+        let Analysis { pattern, fronts } = analysis;
+        fits("entries", values.lower.len(), pattern.nnz())?;
+        if !values.is_symmetric() {
+            fits("upper entries", values.upper.len(), pattern.nnz())?;
+        }
         self.values.clone_from(values);
         self.stats.factorised += 1;
-        let Analysis { pattern, fronts } = analysis;
         let diagonal = &pattern.col_ptr()[..pattern.len()];
         let result = if values.is_symmetric() {
             let indefinite = self.indefinite;
@@ -264,6 +291,7 @@ impl LinearSolver for DirectSolver {
                 nnz_matrix,
                 ..
             } = self.stats;
+            fits("entries", values.lower.len(), nnz_matrix)?;
             self.put_off = conjugate::budget(factor_flops, nnz_factor + nnz_matrix);
             if self.is_put_off() {
                 self.values.clone_from(values);
@@ -274,6 +302,9 @@ impl LinearSolver for DirectSolver {
     }
 
     fn solve_in_place(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
+        if let Some(analysis) = &self.analysis {
+            fits("values on the right", rhs.len(), analysis.pattern.len())?;
+        }
         if let Some(limit) = self.put_off {
             if self.iterate(rhs, limit) {
                 return Ok(());
@@ -308,7 +339,10 @@ impl LinearSolver for DirectSolver {
     fn precondition(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
         match (&self.analysis, &mut self.factor) {
             (Some(_), Some(_)) if self.current.is_none() => return Err(LinearError::NotFactorized),
-            (Some(analysis), Some(factor)) => factor.solve(&analysis.fronts, rhs),
+            (Some(analysis), Some(factor)) => {
+                fits("values on the right", rhs.len(), analysis.pattern.len())?;
+                factor.solve(&analysis.fronts, rhs);
+            }
             _ => return Err(LinearError::NotAnalysed),
         }
         self.stats.solves += 1;

@@ -76,7 +76,7 @@ pub struct Stage<'m> {
     uncounted: usize,
     /// Largest norm of the reactions (N) of all accepted states.
     largest_reactions: f64,
-    /// What divides the force of every DOF so that moments can be added to forces: 1, or the extent of the model (mm) for
+    /// What divides the force of every DOF so that moments can be added to forces: 1, or the extent of the model (mm), if it has one, for
     /// rotations; empty where there are none.
     levers: Vec<f64>,
     counters: Counters,
@@ -96,6 +96,7 @@ fn levers(model: &Model) -> Vec<f64> {
     }
     let [low, high] = model.mesh().bounding_box();
     let extent = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
+    let extent = if extent > 0.0 { extent } else { 1.0 };
     kinds
         .map(|dof| if turns(dof) { extent } else { 1.0 })
         .collect()
@@ -120,6 +121,8 @@ impl<'m> Stage<'m> {
         SolverError::length("displacement", start.len(), dofs)?;
         SolverError::length("conditions", conditions.reference().len(), dofs)?;
         SolverError::length("history variables", history, variables)?;
+        // What an earlier stage had latched in a step that failed has not happened.
+        state.roll_back();
         let assembler = Assembler::new(model, &conditions);
         let mut linear = DirectSolver::default();
         linear
@@ -389,8 +392,13 @@ impl<'m> Stage<'m> {
     ///
     /// [`SolverError::Singular`] or [`SolverError::Linear`].
     pub fn solve(&mut self, rhs: &mut [f64]) -> Result<(), SolverError> {
+        let put_off = self.linear.is_put_off();
         let (result, time) = self.counted(|linear, _| linear.solve_in_place(rhs));
         self.times.solve += time;
+        // What had been put off may have been factorised after all.
+        if let Some(signs) = self.linear.signs().filter(|_| put_off) {
+            self.counters.negative_pivots = signs.negative;
+        }
         result.map_err(|e| self.place(e))
     }
 

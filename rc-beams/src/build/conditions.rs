@@ -57,6 +57,8 @@ pub struct Measures {
     pub loads: Vec<Line>,
     /// Vertical DOF whose downward displacement is the deflection.
     pub deflection: usize,
+    /// Where it is (mm): the node nearest to the place that is asked for.
+    pub deflection_at: [f64; 3],
     load: LoadMeasure,
 }
 
@@ -89,6 +91,7 @@ impl Measures {
             supports: supports.collect::<Result<_, _>>()?,
             loads: loads.collect::<Result<_, _>>()?,
             deflection: model.dof(nearest, Dof::Uy)?,
+            deflection_at: model.mesh().nodes()[nearest],
             load: specimen.measuring.load,
         })
     }

@@ -1,5 +1,7 @@
 //! Strain gauges on bars and sheets: where the tests had them, as far as the model allows.
 
+use std::collections::BTreeSet;
+
 use fe_core::dof::Dof;
 use fe_core::element::ElementError;
 use fe_core::mesh::NodeId;
@@ -8,7 +10,8 @@ use fe_core::shape::quad8;
 use fe_core::state::StateStore;
 use nalgebra::Vector3;
 
-use super::{BarKind, BarRecord, SheetRecord};
+use super::{BarKind, BarRecord, BuildError, SheetRecord};
+use crate::column::{GAUGE_COLUMNS, bar_gauge};
 use crate::spec::{Face, Specimen};
 
 /// Points closer than this (mm) to a plane lie in it.
@@ -69,8 +72,11 @@ impl Gauge {
         Ok(strain)
     }
 
-    /// A gauge on `bar` at the share `t` of its length.
+    /// A gauge on `bar` at the share `t` of its length; none beyond its ends.
     fn on(bar: &BarRecord, t: f64, name: String, model: &Model) -> Option<Self> {
+        if !(0.0..=1.0).contains(&t) {
+            return None;
+        }
         let along = |p: [f64; 3]| -> f64 {
             let [a, b] = bar.ends;
             let (mut dot, mut square) = (0.0, 0.0);
@@ -179,20 +185,20 @@ fn locate(
 
 /// Gauges of a specimen: every stirrup of the test span at mid-height; the longitudinal bars at the loads and
 /// in the middle of the test span; those on the sheets as the specimen says.
+///
+/// # Errors
+///
+/// [`BuildError::TwoGauges`].
 pub(super) fn gauges(
     specimen: &Specimen,
     model: &Model,
     bars: &[BarRecord],
     sheets: Option<&SheetRecord>,
-) -> Vec<Gauge> {
+) -> Result<Vec<Gauge>, BuildError> {
     let span = &specimen.measuring.test_span;
     let (from, to) = (span.x_from_mm.get(), span.x_to_mm.get());
     let middle = 0.5 * specimen.beam.height_mm.get();
-    let mut places: Vec<f64> = specimen.loads.iter().map(|l| l.x_mm.get()).collect();
-    let centre = 0.5 * (from + to);
-    if !places.contains(&centre) {
-        places.push(centre);
-    }
+    let places = specimen.gauge_places();
     let mut gauges = Vec::new();
     for bar in bars {
         let [a, b] = bar.ends;
@@ -204,8 +210,7 @@ pub(super) fn gauges(
             BarKind::Longitudinal => {
                 for &x in &places {
                     let t = (x - a[0]) / (b[0] - a[0]);
-                    let name = format!("{}_x{x}", bar.name);
-                    gauges.extend(Gauge::on(bar, t, name, model));
+                    gauges.extend(Gauge::on(bar, t, bar_gauge(&bar.name, x), model));
                 }
             }
             BarKind::StirrupLeg(_) | BarKind::Tie => {}
@@ -230,5 +235,11 @@ pub(super) fn gauges(
             gauges.extend(Gauge::between(ends, name, &cells, model));
         }
     }
-    gauges
+    let mut columns: BTreeSet<&str> = GAUGE_COLUMNS.into();
+    match gauges.iter().find(|g| !columns.insert(&g.name)) {
+        Some(twice) => Err(BuildError::TwoGauges {
+            column: twice.name.clone(),
+        }),
+        None => Ok(gauges),
+    }
 }

@@ -105,15 +105,15 @@ pub fn default_mesh(specimen: &Specimen, preset: Preset) -> MeshSize {
     let up = |n| axis_lines(specimen.beam.height_mm.get(), &[], &edges[1], n).is_some();
     let wide = |n| axis_lines(specimen.half_width_mm(), &[], &edges[2], n).is_some();
     MeshSize {
-        nx: least(nx, along),
-        ny: least(STRENGTHENED, up),
-        nz: across(least(1, wide)),
+        nx: least(nx, along).unwrap_or(nx),
+        ny: least(STRENGTHENED, up).unwrap_or(STRENGTHENED),
+        nz: across(least(1, wide).unwrap_or(1)),
     }
 }
 
-/// The least number from `n` on that will do; every number of lines does in the end.
-fn least(n: usize, will_do: impl Fn(usize) -> bool) -> usize {
-    (n..n + MOST_LINES).find(|&n| will_do(n)).unwrap_or(n)
+/// The least number from `n` on that will do.
+fn least(n: usize, will_do: impl Fn(usize) -> bool) -> Option<usize> {
+    (n..n + MOST_LINES).find(|&n| will_do(n))
 }
 
 /// More lines than plates and sheets of any beam have.

@@ -43,8 +43,8 @@ use crate::spec::{Sheets, Specimen};
 pub enum BuildError {
     /// Too few elements in one direction.
     #[error(
-        "mesh: {elements} elements {along} the beam are too few for the plates and sheets of {specimen}; with --mesh \
-         give {least} or more"
+        "mesh: {elements} elements {along} the beam are too few for the plates and sheets of {specimen}; {}",
+        least.map_or_else(|| "nor would any more do".into(), |n| format!("with --mesh give {n} or more"))
     )]
     TooFewElements {
         /// Specimen.
@@ -53,8 +53,8 @@ pub enum BuildError {
         along: &'static str,
         /// Elements asked for.
         elements: usize,
-        /// The least number that will do.
-        least: usize,
+        /// The least number that will do, if any does.
+        least: Option<usize>,
     },
     /// The mesh is impossible.
     #[error(transparent)]
@@ -77,6 +77,15 @@ pub enum BuildError {
         x: f64,
         /// Position (mm).
         y: f64,
+    },
+    /// Two gauges would share a column.
+    #[error(
+        "{column:?} would be two columns of gauges.csv, where bars have gauges named BAR_xPLACE and stirrups stirrup_xPLACE; \
+         give the gauge or the bar another name"
+    )]
+    TwoGauges {
+        /// The column.
+        column: String,
     },
 }
 
@@ -232,7 +241,7 @@ impl Beam {
         for conditions in [&weight, &loading] {
             check::held(&model, conditions)?;
         }
-        let gauges = gauges::gauges(specimen, &model, &bars, sheets.as_ref());
+        let gauges = gauges::gauges(specimen, &model, &bars, sheets.as_ref())?;
         Ok(Self {
             model,
             concrete,

@@ -36,6 +36,8 @@ pub struct Zone {
     pub x_to_mm: f64,
     /// Lower and upper end on the side (mm); equal where it leaves the side bare.
     pub side_mm: [f64; 2],
+    /// Height covered between them (mm), less where bands lie one above the other.
+    pub covered_mm: f64,
 }
 
 /// One element of sheet with its bond.
@@ -134,13 +136,15 @@ pub(super) fn lay(
             .iter()
             .map(|cover| Ok(Arc::new(laminate(&sheets.ply, cover, settings)?)))
             .collect::<Result<Vec<_>, BuildError>>()?;
+        let (side_mm, covered_mm) = side(&wrap.faces);
         for (name, stretch) in wrap.sheet_names().zip(&wrap.stretches) {
             let zone = record.zones.len();
             record.zones.push(Zone {
                 name,
                 x_from_mm: stretch.x_from_mm.get(),
                 x_to_mm: stretch.x_to_mm.get(),
-                side_mm: side(&wrap.faces),
+                side_mm,
+                covered_mm,
             });
             let covered: Vec<(skin::Face, &Cover, &Arc<Laminate>)> = wrap
                 .faces
@@ -222,12 +226,13 @@ fn lies_on(face: &skin::Face, specimen: &Specimen, stretch: &Stretch, cover: &Co
         && within(across, cover.from_mm.get(), cover.to_mm.get())
 }
 
-/// Extent of the covers on the side (mm).
-fn side(covers: &[Cover]) -> [f64; 2] {
+/// Extent of the covers on the side and the height that they cover together (mm).
+fn side(covers: &[Cover]) -> ([f64; 2], f64) {
     let on_side = covers.iter().filter(|c| c.face == Face::Side);
     let ends = on_side.map(|c| [c.from_mm.get(), c.to_mm.get()]);
-    ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
-        .unwrap_or_default()
+    let covered = ends.clone().map(|[from, to]| to - from).sum();
+    let extent = ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+    (extent.unwrap_or_default(), covered)
 }
 
 /// Elements of the sheets by kind.

@@ -140,7 +140,7 @@ fn too_few_elements_are_refused() {
         panic!("{error}");
     };
     let settings = ModelSettings {
-        mesh: [least, 4, 1].into(),
+        mesh: [least.unwrap(), 4, 1].into(),
         ..settings
     };
     assert!(Beam::new(&specimen, &settings).is_ok());

@@ -37,7 +37,7 @@ impl From<&PointSample<'_>> for ConcretePoint {
     }
 }
 
-/// Where a longitudinal bar is stressed most within one stretch of the beam.
+/// Where a bar is stressed most within one stretch of the beam.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BarReach {
     /// Name of the bar.
@@ -55,8 +55,8 @@ pub struct Snapshot {
     pub concrete: Vec<ConcretePoint>,
     /// Longitudinal bars, one entry per bar and stretch.
     pub bars: Vec<BarReach>,
-    /// Stirrups that have yielded.
-    pub stirrups_yielded: usize,
+    /// Vertical legs of stirrups.
+    pub stirrups: Vec<BarReach>,
 }
 
 /// A stretch of the beam between load and support in which shear is transferred.

@@ -3,7 +3,7 @@
 use std::thread;
 
 use fe_elements::HexRule;
-use fe_materials::fixed_crack::ShearTransfer;
+use fe_materials::fixed_crack::{CompressionSoftening, ShearTransfer};
 
 use crate::build::ModelSettings;
 use crate::options::{Bond, Cracks, Law, RunOptions, name};
@@ -34,13 +34,40 @@ fn without_effect(options: &RunOptions, settings: &ModelSettings) -> Option<Stri
             "{flag} has no effect with --law {law}: leave it out, or take --law fixed-crack"
         ));
     }
-    let idle =
-        options.cracks.aggregate_mm.is_some() && settings.shear_transfer == ShearTransfer::Damage;
-    idle.then(|| {
-        "--aggregate-mm has no effect without interlock: leave it out, or take --shear-transfer \
-         interlock"
-            .into()
-    })
+    let cracks = &options.cracks;
+    let damage = settings.shear_transfer == ShearTransfer::Damage;
+    let no_distance = damage && settings.compression_softening == CompressionSoftening::None;
+    let perfect = settings.bond == Bond::Perfect;
+    let idle = [
+        (
+            cracks.aggregate_mm.is_some() && damage,
+            "--aggregate-mm",
+            "without interlock",
+            "--shear-transfer interlock",
+        ),
+        (
+            cracks.crack_spacing_mm.is_some() && no_distance,
+            "--crack-spacing-mm",
+            "without interlock and softening of struts",
+            "--shear-transfer interlock",
+        ),
+        (
+            options.strip_bond.is_some() && perfect,
+            "--strip-bond",
+            "with perfect bond",
+            "--bond cohesive",
+        ),
+        (
+            options.counterfactual && perfect,
+            "--counterfactual",
+            "with perfect bond",
+            "--bond cohesive",
+        ),
+    ];
+    let (_, flag, when, remedy) = idle.into_iter().find(|(idle, ..)| *idle)?;
+    Some(format!(
+        "{flag} has no effect {when}: leave it out, or take {remedy}"
+    ))
 }
 
 /// An ingredient of the fixed-crack law that is given: flags are named as their fields are.

@@ -22,6 +22,8 @@ pub enum RunError {
         specimen: String,
         /// Why.
         reason: Box<BuildError>,
+        /// Whether it can with the default options.
+        by_options: bool,
     },
     /// Results cannot be written.
     #[error(transparent)]
@@ -51,11 +53,11 @@ impl RunError {
     /// How the program ends because of it.
     pub fn exit(&self) -> Exit {
         match self {
-            Self::Options(_) => Exit::Usage,
-            Self::Build { reason, .. } => match **reason {
-                BuildError::TooFewElements { .. } => Exit::Usage,
-                _ => Exit::BadInput,
-            },
+            Self::Options(_)
+            | Self::Build {
+                by_options: true, ..
+            } => Exit::Usage,
+            Self::Build { .. } => Exit::BadInput,
             Self::Output(_) | Self::Resume(_) => Exit::File,
             Self::Threads(_) | Self::Solver { .. } | Self::Model(_) => Exit::StoppedEarly,
         }

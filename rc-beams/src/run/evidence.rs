@@ -4,6 +4,7 @@ use fe_core::model::ModelError;
 
 use crate::analysis::Snapshot;
 use crate::build::{BarKind, Beam};
+use crate::column::TEST_SPAN;
 use crate::results::evidence::{self, BarReach, ConcretePoint, Layout, ShearSpan};
 use crate::spec::Specimen;
 
@@ -25,7 +26,7 @@ pub(super) fn layout(specimen: &Specimen, beam: &Beam) -> Layout {
         .map(|pair| {
             let (from_mm, to_mm) = (pair[0].0 + pair[0].2, pair[1].0 - pair[1].2);
             let name = if (from_mm..to_mm).contains(&middle) {
-                "test span".into()
+                TEST_SPAN.into()
             } else {
                 format!("shear span from {from_mm:.0} to {to_mm:.0} mm")
             };
@@ -57,7 +58,7 @@ pub(super) fn snapshot(beam: &Beam, at: &Snapshot) -> Result<evidence::Snapshot,
             })?;
     }
     let mut bars = Vec::new();
-    let mut stirrups_yielded = 0;
+    let mut stirrups = Vec::new();
     for bar in &beam.bars {
         let mut reach = BarReach {
             bar: bar.name.clone(),
@@ -78,13 +79,13 @@ pub(super) fn snapshot(beam: &Beam, at: &Snapshot) -> Result<evidence::Snapshot,
         }
         match bar.kind {
             BarKind::Longitudinal => bars.push(reach),
-            BarKind::StirrupLeg(_) if reach.utilisation >= 1.0 => stirrups_yielded += 1,
-            BarKind::StirrupLeg(_) | BarKind::Tie => {}
+            BarKind::StirrupLeg(_) => stirrups.push(reach),
+            BarKind::Tie => {}
         }
     }
     Ok(evidence::Snapshot {
         concrete,
         bars,
-        stirrups_yielded,
+        stirrups,
     })
 }

@@ -1,6 +1,7 @@
 //! Runs specimens: model, analysis, files and the line on the terminal.
 
 mod again;
+mod caveats;
 mod conflicts;
 mod error;
 mod evidence;
@@ -36,6 +37,7 @@ use crate::results::resources::Resources;
 use crate::results::sheets::{MapState, SheetDrop};
 use crate::results::summary::{Figures, Summary, WallTime, Work};
 use crate::spec::Specimen;
+use caveats::{broken, read_elsewhere};
 pub(crate) use conflicts::warnings;
 pub use error::RunError;
 use plan::{driver, input_hash, settings, setup, stepping};
@@ -89,13 +91,18 @@ pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, Run
 
 /// Whether the model of a specimen can be built with the default options: what laws and elements refuse comes out here.
 pub(crate) fn buildable(specimen: &Specimen) -> Result<(), RunError> {
-    build(specimen, &ModelSettings::new(Preset::default(), specimen)).map(drop)
+    build(specimen, &default_settings(specimen)).map(drop)
+}
+
+fn default_settings(specimen: &Specimen) -> ModelSettings {
+    ModelSettings::new(Preset::default(), specimen)
 }
 
 fn build(specimen: &Specimen, settings: &ModelSettings) -> Result<Beam, RunError> {
     Beam::new(specimen, settings).map_err(|error| RunError::Build {
         specimen: specimen.name.clone(),
         reason: Box::new(error),
+        by_options: Beam::new(specimen, &default_settings(specimen)).is_ok(),
     })
 }
 
@@ -137,6 +144,9 @@ fn run(
     )?;
     if let Some(error) = &bond_error {
         recording.note(&error.to_string());
+    }
+    if let Some(text) = read_elsewhere(specimen, beam.measures.deflection_at) {
+        recording.note(&text);
     }
     let staging = specimen.staged.as_ref().map(|staged| Staging {
         specimen,
@@ -190,10 +200,18 @@ fn run(
     let kept = kept(&stop_reason, exit, &folder);
     let capacity = Capacity::of(&outcome.path);
     let reached = capacity.filter(Capacity::is_reached);
+    // What else cannot be run takes nothing away from what has been.
+    let told = |what: &str, error: RunError| {
+        board.print_result(&format!("{:<8}  {what}: {error}", specimen.name));
+    };
     let numerical_error = match reached.and_then(|c| outcome.path.get(c.peak)) {
         Some(peak) if options.band => {
             let run = (specimen, &settings, &stepping);
-            again::numerical_error(peak.load, run, options, interrupt)?
+            let found = again::numerical_error(peak.load, run, options, interrupt);
+            found
+                .map_err(|error| told("no error bar", error))
+                .ok()
+                .flatten()
         }
         _ => None,
     };
@@ -237,7 +255,11 @@ fn run(
                 bond: Bond::Perfect,
                 ..settings
             };
-            let peak = again::peak_of(specimen, &perfect, &stepping, options, interrupt)?;
+            let found = again::peak_of(specimen, &perfect, &stepping, options, interrupt);
+            let peak = found
+                .map_err(|error| told("no peak with perfect bond", error))
+                .ok()
+                .flatten();
             // A lower bound proves that bond governs, never that it does not.
             let told = peak.map(|p| (p.kn / figures.peak_load_kn, p.reached));
             told.filter(|(ratio, reached)| *reached || *ratio >= BOND_GOVERNS)
@@ -308,21 +330,6 @@ fn run(
     }
     board.print_result(&line);
     Ok(exit)
-}
-
-/// What is said of longitudinal bars that carry more than their rupture stress.
-fn broken<'a>(specimen: &'a Specimen, at: &'a Snapshot) -> impl Iterator<Item = String> + 'a {
-    at.bars.iter().filter_map(|reach| {
-        let bar = specimen.bars.iter().find(|bar| bar.name == reach.bar)?;
-        let stress = reach.utilisation * bar.steel.fy_mpa.get();
-        let ratio = stress / bar.steel.fu_mpa.get();
-        (ratio > 1.0).then(|| {
-            format!(
-                "{} bars carry up to {ratio:.2} times their rupture stress: none breaks in this model",
-                reach.bar
-            )
-        })
-    })
 }
 
 fn diagnosis(

@@ -29,6 +29,7 @@ pub(super) fn layout(beam: &Beam, layout: &Layout) -> SheetLayout {
                 name: z.name.clone(),
                 x_mm: [z.x_from_mm, z.x_to_mm],
                 y_mm: z.side_mm,
+                covered_mm: z.covered_mm,
             })
             .collect(),
         stirrups_in_spans,

@@ -262,6 +262,24 @@ pub enum Mode {
 }
 
 impl Specimen {
+    /// Where (mm) longitudinal bars have gauges: at the loads and in the middle of the test span.
+    pub(crate) fn gauge_places(&self) -> Vec<f64> {
+        let span = &self.measuring.test_span;
+        let centre = 0.5 * (span.x_from_mm.get() + span.x_to_mm.get());
+        let mut places: Vec<f64> = self.loads.iter().map(|l| l.x_mm.get()).collect();
+        if !places.contains(&centre) {
+            places.push(centre);
+        }
+        places
+    }
+
+    /// Longitudinal bars and the places (mm) of their gauges.
+    pub(crate) fn bar_gauges(&self) -> impl Iterator<Item = (&str, f64)> {
+        let places = self.gauge_places();
+        let bars = self.bars.iter().map(|bar| bar.name.as_str());
+        bars.flat_map(move |bar| places.clone().into_iter().map(move |x| (bar, x)))
+    }
+
     /// Half of the width, the extent of the model in z (mm).
     pub fn half_width_mm(&self) -> f64 {
         0.5 * self.beam.width_mm.get()

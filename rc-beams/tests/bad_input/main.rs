@@ -233,7 +233,7 @@ const CASES: &[Case] = &[
         "95",
         &[
             "stirrups.shape.vertical.z_mm: vertical leg at 95 mm",
-            "allowed: 0 to 70 mm",
+            "allowed: 5 to 70 mm",
         ],
     ),
     (

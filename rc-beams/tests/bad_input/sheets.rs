@@ -51,6 +51,15 @@ const ON_STRIPS: &[Case] = &[
         "",
         &["measuring.sheet_gauges[1].name: \"sheet_x2217.5\" names two gauges"],
     ),
+    // A gauge named like a column that is there.
+    (
+        "name: \"sheet_x2092.5\"",
+        "name: \"bottom x1370\"",
+        "",
+        &[
+            "measuring.sheet_gauges[1].name: \"bottom x1370\" and \"bottom_x1370\" give gauges one column",
+        ],
+    ),
     // A wrap named like a strip of the one before.
     (
         "        wraps: [",

@@ -134,9 +134,11 @@ impl<'a> Projection<'a> {
                 residual: effective,
                 iterations: 0,
             };
-            (self.elastic.principal_compliance() + hessian * dlam)
+            let inverse = (self.elastic.principal_compliance() + hessian * dlam)
                 .try_inverse()
-                .ok_or(singular)?
+                .ok_or(singular)?;
+            // Symmetric but for the rounding of an inverse that is near singular.
+            0.5 * (inverse + inverse.transpose())
         } else {
             Matrix3::repeat(self.elastic.bulk)
         };

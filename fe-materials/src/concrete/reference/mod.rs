@@ -119,7 +119,8 @@ impl Reference {
         let surface = self.uncracked.surface();
         let reached = surface.principal_effective_stress(&answer.principal) >= surface.strength();
         if reached && answer.principal[0] >= 0.5 * self.strength() {
-            state.crack(answer.axes, answer.state);
+            // What flows in the step in which it cracks is left to the axes of the crack, whatever iterates it takes.
+            state.crack(answer.axes, state.plastic);
             return Ok(None);
         }
         state.plastic = answer.state;
@@ -167,7 +168,8 @@ impl Material<Solid> for Reference {
         let (found, mut kept) = (State::read(trial), State::read(base));
         let new = (0..kept.cracked.len()).any(|i| found.cracked[i] && !kept.cracked[i]);
         if found.is_cracked() && !kept.is_cracked() {
-            kept.crack(found.axes, found.plastic);
+            // The axes stay, what has flowed or crushed on the way to them has not been accepted.
+            kept.crack(found.axes, kept.plastic);
         }
         kept.cracked = std::array::from_fn(|i| kept.cracked[i] || found.cracked[i]);
         kept.write(base);

@@ -281,6 +281,16 @@ fn latching_keeps_axes_but_not_growth() {
     law.update(&(0.3 * strain), &base, &mut trial, &CONTEXT)
         .unwrap();
     assert_eq!(State::read(&trial).axes, found.axes);
+    // What an iterate that is not accepted has crushed is no history: a small strain gives a small stress.
+    let (mut base, far) = (
+        vec![0.0; 26],
+        Vector6::new(-3e-3, 1.6e-3, 6.4e-4, 0.0, 0.0, 0.0),
+    );
+    law.update(&far, &base, &mut trial, &CONTEXT).unwrap();
+    assert!(law.latch(&trial, &mut base) && State::read(&trial).kappa.iter().any(|k| *k > 0.0));
+    let near = Vector6::new(-2e-5, 2e-5, 0.0, 0.0, 0.0, 0.0);
+    let stress = law.update(&near, &base, &mut trial, &CONTEXT).unwrap();
+    assert!(stress.stress.amax() < 1.0, "{}", stress.stress);
 }
 
 proptest! {

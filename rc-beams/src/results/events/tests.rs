@@ -94,6 +94,7 @@ fn zones() -> Vec<Zone> {
         name: "strip 9".to_owned(),
         x_mm: [1680.0, 1755.0],
         y_mm: [0.0, 305.0],
+        covered_mm: 300.0,
     }]
 }
 

@@ -1,8 +1,9 @@
 //! Tables that grow during a run: steps, gauges, iterations.
 
-use fe_solver::capacity::PathPoint;
 use fe_solver::critical::Critical;
 use fe_solver::recorder::IterationRecord;
+
+use crate::column::GAUGE_COLUMNS;
 
 use super::error::ResultsError;
 use super::folder::Folder;
@@ -51,21 +52,6 @@ pub struct StepRow {
 }
 
 impl StepRow {
-    /// The step as a point of the load path.
-    pub fn point(&self) -> PathPoint {
-        PathPoint {
-            deflection: self.deflection_mm,
-            load: self.load_kn,
-            work_conjugate_load: self.p_star_kn.unwrap_or(self.load_kn),
-            residual: self.residual,
-            flagged: self.flagged,
-            held: self.held,
-            unstable: self.negative_pivots != Some(0),
-            kinetic: self.kinetic,
-            viscous: self.viscous,
-        }
-    }
-
     fn cells(&self) -> Vec<String> {
         let mut cells = vec![
             self.step.to_string(),
@@ -151,7 +137,7 @@ impl History {
         let reactions = supports.iter().map(String::as_str);
         let steps = before.into_iter().chain(reactions).chain(after);
         let readings = gauges.iter().map(String::as_str);
-        let gauges = ["deflection_mm", "load_kn"].into_iter().chain(readings);
+        let gauges = GAUGE_COLUMNS.into_iter().chain(readings);
         Ok(Self {
             steps: Table::create(folder, "history.csv", steps)?,
             gauges: Table::create(folder, "gauges.csv", gauges)?,
@@ -291,16 +277,5 @@ mod tests {
         let mut history = history(&folder);
         let error = history.step(&row(1, 1.0), &[]).unwrap_err();
         assert!(error.to_string().contains("gauges.csv"), "{error}");
-    }
-
-    #[test]
-    fn a_step_becomes_a_point_of_the_path() {
-        let held = StepRow {
-            held: true,
-            ..row(4, 100.0)
-        };
-        let point = held.point();
-        assert!(point.held && !point.flagged);
-        assert_eq!(point.work_conjugate_load, 100.0);
     }
 }

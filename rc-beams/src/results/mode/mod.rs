@@ -18,7 +18,8 @@
 //! | load falls | yield | softened web | diagonal share | growth of crushing | mode |
 //! |---|---|---|---|---|---|
 //! | below 5 %, a plateau | yes | below 10 % | at most 0.4 | | flexure |
-//! | below 5 % | | otherwise | | | none |
+//! | below 5 %, a plateau | | otherwise | | | undecided |
+//! | below 5 % | | | | | none |
 //! | | yes | below 10 % | at most 0.4 | | flexure |
 //! | | no | at least 10 % | | | shear (web crushing) |
 //! | | | below 10 % | at least 0.6 | | shear (diagonal tension) |
@@ -131,7 +132,7 @@ fn evidence(
     format!(
         "load falls by {:.1} %; {found}; {} of {} stirrups yield",
         100.0 * capacity.post_peak_drop,
-        end.stirrups_yielded,
+        end.stirrups.iter().filter(|s| s.utilisation >= 1.0).count(),
         layout.stirrups
     )
 }
@@ -198,8 +199,9 @@ impl Measures {
     /// Mode where the load does not fall by [`DROP_FALL`]; none where it does.
     fn mode_without_drop(&self, capacity: &Capacity) -> Option<FailureMode> {
         (capacity.post_peak_drop < DROP_FALL).then(|| match self.mode() {
-            FailureMode::Flexure if capacity.plateau => FailureMode::Flexure,
-            _ => FailureMode::None,
+            _ if !capacity.plateau => FailureMode::None,
+            FailureMode::Flexure => FailureMode::Flexure,
+            _ => FailureMode::Undecided,
         })
     }
 

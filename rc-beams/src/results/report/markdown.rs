@@ -6,8 +6,8 @@ use super::figures::Group;
 use super::stored::{Stored, StoredSheets};
 use super::{Report, counted};
 use crate::results::events::EventKind;
-use crate::results::mode::strengthened::LOST;
 use crate::results::sheets::Shown;
+use crate::results::sheets::is_lost;
 
 /// The text of the report.
 pub(super) fn report(beams: &[Stored], groups: &[Group], report: &Report) -> String {
@@ -190,7 +190,7 @@ fn sheets(beams: &[Stored]) -> String {
                 beam.name.clone(),
                 format!("{:.0}", peak.stress_mpa),
                 format!("{:.1}", peak.force_kn),
-                if beam.summary.post_peak_drop >= LOST {
+                if is_lost(end.load_kn, peak.load_kn) {
                     "lost with the load".to_owned()
                 } else {
                     format!("{:.1}", end.force_kn)

@@ -47,7 +47,6 @@ pub(super) struct StoredSummary {
     pub steps: usize,
     pub peak_load_kn: f64,
     pub deflection_at_peak_mm: f64,
-    pub post_peak_drop: f64,
     pub mode: String,
     pub mode_evidence: String,
     pub trust: String,
@@ -88,6 +87,7 @@ pub(super) struct StoredEvent {
 /// A row of `sheets.csv`, the test span or, without one, the span with the largest value.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StoredSheets {
+    pub load_kn: f64,
     pub stress_mpa: f64,
     pub force_kn: f64,
     pub debonded: f64,
@@ -211,10 +211,14 @@ impl Row<'_> {
         if self.header.iter().any(|c| c == test) {
             return self.number_or_zero(&test);
         }
-        let spans = self.header.iter().filter(|c| c.ends_with(measure));
+        // Spans alone have a stress; zones are debonded too.
+        let spans = self
+            .header
+            .iter()
+            .filter_map(|c| c.strip_suffix("_stress_mpa"));
         let mut largest = 0.0_f64;
-        for column in spans {
-            largest = largest.max(self.number_or_zero(column)?);
+        for span in spans {
+            largest = largest.max(self.number_or_zero(&format!("{span}_{measure}"))?);
         }
         Ok(largest)
     }
@@ -280,11 +284,12 @@ fn sheets(folder: &Path, peak: [f64; 2]) -> Result<[StoredSheets; 2], String> {
     let (mut at_peak, mut last) = (None, None);
     rows(folder, "sheets.csv", &mut |row| {
         let read = StoredSheets {
+            load_kn: row.number("load_kn")?,
             stress_mpa: row.span("stress_mpa")?,
             force_kn: row.span("force_kn")?,
             debonded: row.span("debonded")?,
         };
-        if same([row.number("deflection_mm")?, row.number("load_kn")?], peak) {
+        if same([row.number("deflection_mm")?, read.load_kn], peak) {
             at_peak = Some(read);
         }
         last = Some(read);

@@ -4,6 +4,14 @@ use fe_solver::capacity::{CAPACITY_FALL, Capacity, PathPoint};
 
 use super::{SheetLayout, SheetRow};
 
+/// Fall of the load from which the force of the sheets is lost too.
+pub const LOST: f64 = 0.90;
+
+/// Whether a load is what is left of a peak that has been lost.
+pub fn is_lost(load: f64, peak: f64) -> bool {
+    load <= (1.0 - LOST) * peak
+}
+
 /// Index of the first point after the peak at which the load is at most 0.8 of it; none while the load is above.
 pub fn end_of_drop(path: &[PathPoint], capacity: &Capacity) -> Option<usize> {
     let peak = path.get(capacity.peak)?.load;
@@ -53,6 +61,8 @@ pub struct SheetDrop {
     pub complete: bool,
     /// Load at the end of the drop (kN).
     pub end_load_kn: f64,
+    /// Whether next to nothing is left of the load there.
+    pub lost: bool,
     /// Largest utilisation of a sheet up to the peak.
     pub utilisation: f64,
     /// The zone that is debonded most at the end.
@@ -92,6 +102,7 @@ impl SheetDrop {
             spans: spans.collect(),
             complete: end.is_some(),
             end_load_kn: last.load_kn,
+            lost: is_lost(last.load_kn, peak.load_kn),
             utilisation: rows[..=capacity.peak]
                 .iter()
                 .map(|r| r.utilisation)

@@ -1,4 +1,4 @@
-//! `sheet_map.csv`: the points of sheets and interface at the peak and at the end of the path.
+//! `sheet_map.csv`: the points of sheets and interface at the peak and at the end of the drop after it.
 
 use std::io::{self, Read};
 
@@ -17,7 +17,7 @@ pub const MAP: &str = "sheet_map.csv";
 pub enum MapState {
     /// The largest load.
     Peak,
-    /// The last accepted step.
+    /// The first step at 0.8 of the peak, or the last one.
     End,
 }
 
@@ -48,7 +48,7 @@ pub struct MapRow {
     pub y_mm: f64,
     /// Distance from the symmetry plane (mm).
     pub z_mm: f64,
-    /// Stress along the fibres round the section (MPa).
+    /// Largest stress along the fibres of a ply (MPa).
     pub fibre_stress_mpa: Option<f64>,
     /// Slip (mm).
     pub slip_mm: Option<f64>,

@@ -14,8 +14,8 @@ pub struct SpanReading {
     /// Largest fibre stress on all faces (MPa); 0 where all are in compression.
     pub stress_mpa: f64,
     /// Largest vertical force that the sides can carry across a diagonal crack (kN), whole width:
-    /// SVf = sum of 2 t dx max_y(sigma_f) over the columns of points of the side, t the thickness, dx the
-    /// width of a column, sigma_f the fibre stress where it is tension.
+    /// SVf = sum of 2 dx max_y(n) over the columns of points of the side, dx the width of a column and n the
+    /// [tension round the section](super::SheetPoint::hoop_n_per_mm), all plies together.
     pub force_kn: f64,
     /// Share of the bonded side that is debonded; none without bonded side.
     pub debonded: Option<f64>,
@@ -99,10 +99,7 @@ impl SheetRow {
             }
         }
         for ((span, zone, _), column) in columns {
-            let height = sheets
-                .zones
-                .get(zone)
-                .map_or(0.0, |z| z.y_mm[1] - z.y_mm[0]);
+            let height = sheets.zones.get(zone).map_or(0.0, |z| z.covered_mm);
             if height > 0.0 {
                 spans[span].force_kn += 2e-3 * column.tension * column.area / height;
             }

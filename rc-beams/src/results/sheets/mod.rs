@@ -16,7 +16,7 @@ mod table;
 pub(super) mod tests;
 mod view;
 
-pub use drop::{SheetDrop, SpanDrop, ZoneDrop, end_of_drop};
+pub use drop::{LOST, SheetDrop, SpanDrop, ZoneDrop, end_of_drop, is_lost};
 pub use map::{MAP, MapError, MapKind, MapRow, MapState, read_map, write_map};
 pub use measures::{SheetRow, SpanReading, ZoneReading};
 pub use table::SheetTable;
@@ -114,6 +114,8 @@ pub struct Zone {
     pub x_mm: [f64; 2],
     /// Lower and upper end on the side (mm).
     pub y_mm: [f64; 2],
+    /// Height covered between them (mm), less where bands lie one above the other.
+    pub covered_mm: f64,
 }
 
 /// What does not change during a run.

@@ -18,6 +18,8 @@ const AREA_RATIO: RangeInclusive<f64> = 0.8..=1.1;
 const LARGEST_RATIO: f64 = 0.2;
 
 const UP: &str = "y is measured from the soffit";
+const MIRRORED: &str = "z is measured from the middle of the width, where a bar would meet its mirror image: write two of half \
+                        its cross-section for one there";
 const ACROSS: &str = "z is measured from the middle of the width";
 
 impl Checks<'_> {
@@ -76,7 +78,12 @@ impl Checks<'_> {
         let y = (place.as_str(), axis.y_mm.get());
         self.within(format!("{path}.axis.y_mm"), y, radius..=height - radius, UP);
         let z = (place.as_str(), axis.z_mm.get());
-        self.within(format!("{path}.axis.z_mm"), z, 0.0..=half - radius, ACROSS);
+        self.within(
+            format!("{path}.axis.z_mm"),
+            z,
+            radius..=half - radius,
+            MIRRORED,
+        );
         self.within(
             format!("{path}.axis.x_to_mm"),
             (&place, to),
@@ -145,7 +152,7 @@ impl Checks<'_> {
         let path = "stirrups.shape.vertical";
         let (from, to) = (leg.y_from_mm.get(), leg.y_to_mm.get());
         let z = ("vertical leg", leg.z_mm.get());
-        self.within(format!("{path}.z_mm"), z, 0.0..=half - radius, ACROSS);
+        self.within(format!("{path}.z_mm"), z, radius..=half - radius, MIRRORED);
         self.within(
             format!("{path}.y_to_mm"),
             ("end of the leg", to),

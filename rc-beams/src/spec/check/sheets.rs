@@ -1,6 +1,7 @@
 //! Fibre sheets lie on free faces of the beam, apart from each other, and gauges on them.
 
 use super::{ALONG, Checks, TOLERANCE};
+use crate::column::{GAUGE_COLUMNS, TEST_SPAN, bar_gauge};
 use crate::spec::sheets::{Cover, Face, SheetGauge, Stretch, Wrap};
 
 const FACE: &str = "on the side, from_mm and to_mm are heights above the soffit; on soffit and top, \
@@ -57,7 +58,8 @@ impl Checks<'_> {
             for (i, wrap) in sheets.wraps.iter().enumerate() {
                 let path = format!("sheets.wraps[{i}]");
                 let before = &sheets.wraps[..i];
-                let others: Vec<String> = before.iter().flat_map(Wrap::sheet_names).collect();
+                let mut others = vec![TEST_SPAN.to_owned()];
+                others.extend(before.iter().flat_map(Wrap::sheet_names));
                 let before = before.iter().map(|w| &w.name);
                 if self.named_once(&path, ("wraps", &wrap.name), before) {
                     wrap.sheet_names()
@@ -82,9 +84,11 @@ impl Checks<'_> {
             );
         }
         let gauges = &specimen.measuring.sheet_gauges;
+        let others = specimen.bar_gauges().map(|(bar, x)| bar_gauge(bar, x));
+        let others: Vec<String> = others.chain(GAUGE_COLUMNS.map(str::to_owned)).collect();
         for (i, gauge) in gauges.iter().enumerate() {
             let path = format!("measuring.sheet_gauges[{i}]");
-            let before = gauges[..i].iter().map(|g| &g.name);
+            let before = gauges[..i].iter().map(|g| &g.name).chain(&others);
             self.named_once(&path, ("gauges", &gauge.name), before);
             self.gauge(&path, gauge, &patches);
         }

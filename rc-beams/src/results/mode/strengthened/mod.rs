@@ -6,7 +6,7 @@
 //! none grow. Measures, beside those of [`super`]:
 //!
 //! - *loss*: of the force SVf ([`SpanReading::force_kn`](crate::results::sheets::SpanReading)), relative to the peak; all
-//!   of it where 90 % of the load are lost, as what is left is a motion, no equilibrium that forces could be read from;
+//!   of it where the load is lost there, [`LOST`](crate::results::sheets::LOST) or more of it, as what is left is a motion, no equilibrium that forces could be read from;
 //! - *debonded*: share of the side of the span at the end of the drop;
 //! - *utilisation*: largest of any sheet up to the peak;
 //! - *ratio*: peak of the same beam with perfect bond over that of the beam, where it is known. At least
@@ -38,6 +38,7 @@ use fe_solver::capacity::Capacity;
 use super::{
     CRUSHING_GROWTH, DIAGONAL_MINOR, Diagnosis, FailureMode, Measures, SOFTENED_WEB, evidence,
 };
+use crate::column::TEST_SPAN;
 use crate::results::evidence::{Layout, Snapshot};
 use crate::results::sheets::{SheetDrop, SpanDrop};
 
@@ -45,8 +46,6 @@ use crate::results::sheets::{SheetDrop, SpanDrop};
 pub const DEBONDING_LOSS: f64 = 0.40;
 /// Debonded share of the side from which it is debonding.
 pub const DEBONDING_SHARE: f64 = 0.35;
-/// Fall of the load from which the force of the sheets is lost too.
-pub const LOST: f64 = 0.90;
 /// Loss of sheet force up to which the sheets stay bonded.
 pub const BONDED_LOSS: f64 = 0.25;
 /// Ratio of the peak with perfect bond to the peak from which bond governs.
@@ -79,7 +78,6 @@ impl Diagnosis {
             name: index.map_or(TEST_SPAN, |i| layout.shear_spans[i].name.as_str()),
             debonded,
             sheets,
-            lost: capacity.post_peak_drop >= LOST,
             ratio,
         };
         Self {
@@ -90,24 +88,23 @@ impl Diagnosis {
     }
 }
 
-/// Name of the span under test in a layout.
-const TEST_SPAN: &str = "test span";
-
 /// The sheets of the span that fails.
 struct Bond<'a> {
     span: &'a SpanDrop,
     name: &'a str,
     debonded: [f64; 2],
     sheets: &'a SheetDrop,
-    /// Whether the load is lost.
-    lost: bool,
     ratio: Option<f64>,
 }
 
 impl Bond<'_> {
     /// The measure *loss* of the module.
     fn loss(&self) -> f64 {
-        if self.lost { 1.0 } else { self.span.loss() }
+        if self.sheets.lost {
+            1.0
+        } else {
+            self.span.loss()
+        }
     }
 }
 
@@ -154,7 +151,7 @@ impl fmt::Display for Bond<'_> {
             "sheet force in the {} {before:.1} kN at the peak, ",
             self.name
         )?;
-        if self.lost {
+        if self.sheets.lost {
             f.write_str("lost with the load; ")?;
         } else {
             // Adding 0 turns -0 into 0.
@@ -169,10 +166,10 @@ impl fmt::Display for Bond<'_> {
         if let Some(zone) = &self.sheets.zone {
             write!(
                 f,
-                "; {} slips most widely, up to {:.3} mm and beyond s_f over {:.0} %",
+                "; {} is debonded most widely, over {:.0} %, and slips up to {:.3} mm",
                 zone.name,
-                zone.slip_max_mm,
-                100.0 * zone.debonded
+                100.0 * zone.debonded,
+                zone.slip_max_mm
             )?;
         }
         write!(
