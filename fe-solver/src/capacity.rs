@@ -101,6 +101,16 @@ impl Capacity {
         })
     }
 
+    /// The same of a path with so many points more before its first.
+    #[must_use]
+    pub fn behind(self, points: usize) -> Self {
+        Self {
+            peak: self.peak + points,
+            first_drop: self.first_drop.map(|i| i + points),
+            ..self
+        }
+    }
+
     /// Whether the load went down behind the peak, by [`DROP_FALL`] at least, or stayed there on a plateau. Otherwise the path
     /// ends while the load may rise, and its largest load is a lower bound of the capacity.
     pub fn is_reached(&self) -> bool {
@@ -356,12 +366,17 @@ impl Verdict {
     /// `ratio` times, on the way to the peak. The reason is added to.
     pub fn limit_by_locking(&mut self, ratio: f64) {
         if ratio > LOCKING {
-            self.trust = self.trust.max(Trust::Limited);
-            let reason = format!(
-                "; cracked concrete carries up to {ratio:.2} times its tensile strength: cracks lock"
-            );
-            self.reason.push_str(&reason);
+            self.limit(&format!(
+                "cracked concrete carries up to {ratio:.2} times its tensile strength: cracks lock"
+            ));
         }
+    }
+
+    /// Lowers the trust to limited for a reason that the path does not tell, which is added.
+    pub fn limit(&mut self, reason: &str) {
+        self.trust = self.trust.max(Trust::Limited);
+        self.reason.push_str("; ");
+        self.reason.push_str(reason);
     }
 }
 

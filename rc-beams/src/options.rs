@@ -150,7 +150,7 @@ pub struct Cracks {
     #[arg(long, value_name = "SHARE", value_parser = fixing_share, allow_negative_numbers = true)]
     pub fixing_share: Option<f64>,
 
-    /// Least shear stiffness of open cracks over that of sound concrete; without it, that of the preset
+    /// Least shear stiffness of open cracks over that of sound concrete; without it, that of the preset, 1e-4 of the default
     #[arg(long, value_name = "SHARE", value_parser = shear_floor, allow_negative_numbers = true)]
     pub shear_floor: Option<f64>,
 
@@ -220,10 +220,12 @@ pub enum Preset {
     /// The reported strength is the mean; 14-point integration, dowel action of the bars; sheets as given
     #[default]
     Physical,
-    /// As physical, but with the sheets of the reference: fibres of the soffit along the beam, shear modulus E/2
+    /// As physical, but with the sheets of the reference: fibres of the soffit along the beam, shear modulus E/2,
+    /// bond of strips as under a sheet
     Reference,
     /// The reported strength is characteristic (mean: 8 MPa more); reduced integration, no dowel action, no interlock,
-    /// no compression softening, linear softening in tension, half the band width
+    /// no compression softening, linear softening in tension, half the band width, axes of cracks fixed at the onset, a tenfold floor
+    /// of the shear of open cracks, bond of strips as under a sheet
     Characteristic,
 }
 
@@ -243,7 +245,7 @@ pub enum Integration {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Law {
-    /// Fixed cracks, shear factor from the largest opening reached
+    /// Orthogonal cracks that follow the strain, then stay fixed; crack band, interlock, struts weakened by cracks
     #[default]
     FixedCrack,
     /// The law of the reference: Ottosen surface, fixed cracks

@@ -22,11 +22,13 @@ pub struct OutputError {
 ///
 /// [`OutputError`] if not.
 pub fn prepare(path: &Path) -> Result<(), OutputError> {
-    fs::create_dir_all(path)
-        .and_then(|()| tempfile::tempfile_in(path))
+    // Without the dots that name no folder.
+    let path: PathBuf = path.components().collect();
+    fs::create_dir_all(&path)
+        .and_then(|()| tempfile::tempfile_in(&path))
         .map(|_| ())
         .map_err(|source| OutputError {
-            path: path.into(),
+            path: path.clone(),
             source,
         })
 }

@@ -1,5 +1,6 @@
 //! Concrete of a case.
 
+use fe_core::material::MaterialError;
 use serde::Deserialize;
 
 use super::CaseError;
@@ -28,6 +29,9 @@ pub struct ConcreteCase {
     pub fracture_energy_n_per_mm: Option<f64>,
 }
 
+/// More than the toughest fibre concrete takes (N/mm, assumed): beyond it, the unit is another.
+const LARGEST_FRACTURE_ENERGY: f64 = 50.0;
+
 impl ConcreteCase {
     /// The properties.
     ///
@@ -43,6 +47,18 @@ impl ConcreteCase {
                 return Err(CaseError::Strength { given });
             }
         };
+        if let Some(value) = self.fracture_energy_n_per_mm
+            && value > LARGEST_FRACTURE_ENERGY
+        {
+            return Err(CaseError::Law(MaterialError::Parameter {
+                law: "concrete",
+                parameter: "fracture_energy_n_per_mm",
+                value,
+                unit: "N/mm",
+                allowed: format!("(0, {LARGEST_FRACTURE_ENERGY}]"),
+                remedy: "give it in N/mm: 140 N/m are 0.14".into(),
+            }));
+        }
         Ok(ConcreteScalars {
             fcm_mpa: derived.fcm_mpa,
             fctm_mpa: self.fctm_mpa.unwrap_or(derived.fctm_mpa),

@@ -49,14 +49,18 @@ pub fn analyse(
     };
     let Some(staging) = staging else {
         let mut state = StateStore::new(beam.model.elements());
-        let start = march.weight(beam, &mut state)?;
+        let start = march
+            .weight(beam, &mut state)
+            .map_err(AnalysisError::SelfWeight)?;
         let (mut outcome, _) = march.load(beam, &mut state, start, stepping, Until::Failure)?;
         outcome.work = march.work;
         return Ok(outcome);
     };
     let bare = Beam::bare(staging.specimen, staging.settings)?;
     let mut state = StateStore::new(bare.model.elements());
-    let start = march.weight(&bare, &mut state)?;
+    let start = march
+        .weight(&bare, &mut state)
+        .map_err(AnalysisError::SelfWeight)?;
     let wanted_kn = staging.staged.load_kn.get();
     let until = Until::Load(wanted_kn);
     let (mut first, mut imposed) = march.load(&bare, &mut state, start, stepping, until)?;

@@ -86,6 +86,8 @@ pub struct Reading {
     pub work_conjugate_load_kn: f64,
     /// Support reactions of the whole width, self weight included (kN).
     pub reactions_kn: Vec<f64>,
+    /// Largest force by which a support holds the beam down or a load pulls it up, over all loads.
+    pub backward: f64,
 }
 
 /// Displacements and states of an accepted step.
@@ -187,6 +189,9 @@ pub enum AnalysisError {
     /// The solver gave up.
     #[error(transparent)]
     Solver(#[from] SolverError),
+    /// The beam does not stand.
+    #[error("under its own weight, before any load: {0}")]
+    SelfWeight(SolverError),
     /// The bare beam fails before the sheets are bonded.
     #[error(
         "the bare beam carries {carried_kn:.1} kN up to the end of its path, but its sheets are to be bonded at \

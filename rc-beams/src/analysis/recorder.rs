@@ -33,7 +33,15 @@ fn read(beam: &Beam, view: &StepView<'_>, origin: &Origin) -> Reading {
     } else {
         view.work_conjugate_load / view.load
     };
+    let loads = beam.measures.loads.iter();
+    let loads: Vec<f64> = loads.map(|l| l.force(|d| stage.reaction(d))).collect();
+    let pulls = loads.iter().copied();
+    let backward = pulls
+        .chain(reactions.iter().map(|r| -r))
+        .fold(0.0, f64::max);
+    let all: f64 = loads.iter().map(|f| f.abs()).sum();
     Reading {
+        backward: if all > 0.0 { backward / all } else { 0.0 },
         deflection_mm: origin.displacement - stage.displacement()[beam.measures.deflection],
         load_kn,
         work_conjugate_load_kn: load_kn * ratio,

@@ -214,7 +214,8 @@ impl Checkpoint {
         record = postcard::to_extend(entry, record).map_err(io::Error::other)?;
         let length = (record.len() - 4) as u32;
         record[..4].copy_from_slice(&length.to_le_bytes());
-        self.file.write_all(&record)?;
+        let written = self.file.write_all(&record);
+        written.map_err(|e| self.folder.error(STEPS, e))?;
         self.crc.update(&record);
         self.header.records += 1;
         self.header.bytes += record.len();

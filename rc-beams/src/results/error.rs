@@ -17,7 +17,7 @@ pub enum ResultsError {
     Drawing(String),
     /// The signal handler cannot be installed.
     #[error("cannot watch for Ctrl-C")]
-    Signal(#[from] ctrlc::Error),
+    Signal(#[source] io::Error),
 }
 
 /// For recorders, which answer in the terms of the system; the message names the file.

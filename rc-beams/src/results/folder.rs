@@ -29,6 +29,9 @@ const NOT_STARTED_ANEW: [&str; 12] = [
     "fields.pvd",
 ];
 
+/// How names of files begin until they are written whole.
+const DRAFT: &str = ".draft-";
+
 /// A folder known to be writable, and claimed if a run writes into it.
 #[derive(Debug, Clone)]
 pub struct Folder {
@@ -50,13 +53,6 @@ impl Folder {
         for file in NOT_STARTED_ANEW {
             folder.remove(file)?;
         }
-        for entry in fs::read_dir(&folder.path).map_err(|e| folder.error("", e))? {
-            let name = entry.map_err(|e| folder.error("", e))?.file_name();
-            let name = name.to_string_lossy();
-            if name.starts_with("fields_") && name.ends_with(".vtu") {
-                remove_if_there(&folder.path.join(&*name)).map_err(|e| folder.error(&name, e))?;
-            }
-        }
         Ok(folder)
     }
 
@@ -74,8 +70,17 @@ impl Folder {
         })
     }
 
+    /// Claims the folder, and removes what a run that was killed left half-written, and fields, which the next run writes
+    /// once more.
     fn claimed(self) -> Result<Self, ResultsError> {
         let claim = Claim::on(&self.path).map_err(|e| self.error("", e))?;
+        for entry in fs::read_dir(&self.path).map_err(|e| self.error("", e))? {
+            let name = entry.map_err(|e| self.error("", e))?.file_name();
+            let name = name.to_string_lossy();
+            if name.starts_with(DRAFT) || name.starts_with("fields_") && name.ends_with(".vtu") {
+                self.remove(&name)?;
+            }
+        }
         Ok(Self {
             _claim: Some(Arc::new(claim)),
             ..self
@@ -171,6 +176,7 @@ impl Folder {
     /// A file to be renamed to `name`, as readable by others as any new file.
     fn draft(&self, name: &str) -> io::Result<NamedTempFile> {
         let mut builder = Builder::new();
+        builder.prefix(DRAFT);
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         builder.suffix(name).tempfile_in(&self.path)

@@ -1,42 +1,54 @@
 //! Ctrl-C and termination signals.
 
+#[cfg(unix)]
+use std::fs;
 use std::io::{self, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
 
 use super::error::ResultsError;
 use crate::exit::Exit;
 
 /// Tells a run that its user wants it to stop.
 #[derive(Debug, Clone, Default)]
-pub struct Interrupt(Arc<AtomicBool>);
+pub struct Interrupt {
+    set: Arc<AtomicBool>,
+    /// Whether the user has been told that it was noted.
+    told: Arc<AtomicBool>,
+}
 
 impl Interrupt {
-    /// Watches for Ctrl-C, SIGTERM and SIGHUP from now on. The first is noted, so that the run can end in
-    /// order; the second ends the process at once. Only once per process.
+    /// Watches for Ctrl-C, SIGTERM and SIGHUP from now on; a SIGHUP that is ignored, as under `nohup`, stays so. The first
+    /// is noted, so that the run can end in order; the second ends the process at once. Only once per process.
     ///
     /// # Errors
     ///
     /// [`ResultsError::Signal`] when the handler cannot be installed.
     pub fn install() -> Result<Self, ResultsError> {
         let interrupt = Self::default();
-        let flag = Arc::clone(&interrupt.0);
-        ctrlc::set_handler(move || {
-            if flag.swap(true, Ordering::Relaxed) {
-                std::process::exit(i32::from(Exit::Interrupted.code()));
-            }
-            // A message that cannot be written is no reason to fail.
-            let _ = writeln!(
-                io::stderr(),
-                "stopping after the last accepted step; press Ctrl-C again to end at once"
-            );
-        })?;
+        let code = i32::from(Exit::Interrupted.code());
+        for signal in [SIGINT, SIGTERM].into_iter().chain(hang_up()) {
+            flag::register_conditional_shutdown(signal, code, Arc::clone(&interrupt.set))
+                .and_then(|_| flag::register(signal, Arc::clone(&interrupt.set)))
+                .map_err(ResultsError::Signal)?;
+        }
         Ok(interrupt)
     }
 
     /// Whether a signal has come.
     pub fn is_set(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        let set = self.set.load(Ordering::Relaxed);
+        if set && !self.told.swap(true, Ordering::Relaxed) {
+            // A message that cannot be written is no reason to fail.
+            let _ = writeln!(
+                io::stderr(),
+                "stopping after the last accepted step; press Ctrl-C again to end at once"
+            );
+        }
+        set
     }
 
     /// For recorders: ends the analysis once a signal has come.
@@ -53,6 +65,26 @@ impl Interrupt {
         }
         Ok(())
     }
+}
+
+/// The signal of a terminal that goes away, unless it is ignored.
+#[cfg(unix)]
+fn hang_up() -> Option<i32> {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    (!ignores(&status, signal_hook::consts::SIGHUP)).then_some(signal_hook::consts::SIGHUP)
+}
+
+#[cfg(not(unix))]
+const fn hang_up() -> Option<i32> {
+    None
+}
+
+/// Whether a process with that status, see proc(5), ignores a signal.
+#[cfg(unix)]
+fn ignores(status: &str, signal: i32) -> bool {
+    let mask = status.lines().find_map(|l| l.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|m| u64::from_str_radix(m.trim(), 16).ok());
+    mask.is_some_and(|m| m >> (signal - 1) & 1 == 1)
 }
 
 #[cfg(all(test, unix))]
@@ -77,6 +109,13 @@ mod tests {
         loop {
             std::thread::park();
         }
+    }
+
+    #[test]
+    fn a_signal_that_is_ignored_is_known() {
+        let status = "Name:\trc-beams\nSigBlk:\tffffffffffffffff\nSigIgn:\t0000000000001001\n";
+        assert!(ignores(status, 1) && ignores(status, 13));
+        assert!(!ignores(status, 2) && !ignores("", 1));
     }
 
     fn signal(child: &Child) {

@@ -140,7 +140,7 @@ impl Progress {
     pub fn finish(&self) {
         match &self.display {
             Display::Bar(bar) => bar.finish_and_clear(),
-            Display::Lines { .. } => say(&format!("{}: finished, {}", self.name, self.status)),
+            Display::Lines { .. } => say(&format!("{}: ended, {}", self.name, self.status)),
         }
     }
 

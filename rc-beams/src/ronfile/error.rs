@@ -138,7 +138,7 @@ impl Words {
                 Some("write digits with a decimal point, without quotes".into()),
             ),
             Error::IntegerOutOfBounds => Self::new(
-                "a negative or far too large number; allowed: whole numbers from 0 on",
+                "a negative or far too large number; allowed: whole numbers that are not negative",
                 "here",
                 None,
             ),

@@ -3,6 +3,9 @@
 use crate::results::evidence::Snapshot;
 use crate::spec::Specimen;
 
+/// Share of all loads below which a pull is no matter.
+const PULLS: f64 = 0.02;
+
 /// Slack (mm) of the place of a node.
 const SAME_PLACE_MM: f64 = 0.1;
 
@@ -17,6 +20,17 @@ pub(super) fn read_elsewhere(specimen: &Specimen, node: [f64; 3]) -> Option<Stri
     (off > SAME_PLACE_MM).then(|| {
         let [x, y, z] = node;
         format!("the deflection is that of the nearest node, at x = {x:.1}, y = {y:.1}, z = {z:.1} mm, {off:.1} mm from the place asked for")
+    })
+}
+
+/// What is said where loads pull or supports hold down, by that share of all loads: plates can only press.
+pub(super) fn pulls(share: f64) -> Option<String> {
+    (share > PULLS).then(|| {
+        format!(
+            "a load pulls the beam up or a support holds it down, by {:.0} % of all loads: loads go down together and supports \
+             act both ways in this model",
+            100.0 * share
+        )
     })
 }
 

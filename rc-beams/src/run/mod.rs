@@ -37,7 +37,7 @@ use crate::results::resources::Resources;
 use crate::results::sheets::{MapState, SheetDrop};
 use crate::results::summary::{Figures, Summary, WallTime, Work};
 use crate::spec::Specimen;
-use caveats::{broken, read_elsewhere};
+use caveats::{broken, pulls, read_elsewhere};
 pub(crate) use conflicts::warnings;
 pub use error::RunError;
 use plan::{driver, input_hash, settings, setup, stepping};
@@ -176,6 +176,8 @@ fn run(
         }
         Ok(outcome) => outcome,
         Err(error) => {
+            // Nothing to go on with.
+            Checkpoint::remove(&folder)?;
             return Err(RunError::Solver {
                 specimen: specimen.name.clone(),
                 reason: Box::new(error),
@@ -219,13 +221,18 @@ fn run(
     let at_peak = outcome.peak.as_ref().unwrap_or(&outcome.last);
     let peak = evidence::snapshot(beam, at_peak)?;
     let figures = capacity.and_then(|capacity| {
-        let mut verdict = Verdict::of(&outcome.path, &capacity);
+        // What has led to the bonding of the sheets counts as well.
+        let whole = [outcome.before.as_slice(), &outcome.path].concat();
+        let mut verdict = Verdict::of(&whole, &capacity.behind(outcome.before.len()));
         verdict.limit_by_locking(tension(&capacity));
         let torn = watch.largest_utilisation(outcome.path.len(), capacity.peak);
         if torn >= 1.0 {
             verdict.distrust(&format!(
                 "sheets carry up to {torn:.2} times their strength: none tears in this model"
             ));
+        }
+        if let Some(text) = pulls(watch.backward(outcome.path.len(), capacity.peak)) {
+            verdict.limit(&text);
         }
         for bar in broken(specimen, &peak) {
             verdict.distrust(&bar);

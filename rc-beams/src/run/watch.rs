@@ -44,6 +44,8 @@ pub(super) struct Watch {
     rows: Vec<SheetRow>,
     /// Largest principal tension of cracked concrete over its strength, step by step under load.
     tension: Vec<f64>,
+    /// Loads that pull and supports that hold down, step by step under load.
+    backward: Vec<f64>,
 }
 
 impl Watch {
@@ -68,6 +70,7 @@ impl Watch {
             table,
             rows: Vec::new(),
             tension: Vec::new(),
+            backward: Vec::new(),
         })
     }
 
@@ -91,6 +94,7 @@ impl Watch {
         if step > 0 {
             let tension = self.cracking.largest_tension();
             self.tension.push(tension / beam.tensile_mpa);
+            self.backward.push(reading.backward);
         }
         if let Some(record) = &beam.sheets {
             let present = model.elements().len() > record.membranes.start;
@@ -134,6 +138,13 @@ impl Watch {
     pub(super) fn largest_tension(&self, steps: usize, peak: usize) -> f64 {
         let path = last(&self.tension, steps).iter();
         path.take(peak + 1).fold(0.0, |a, b| a.max(*b))
+    }
+
+    /// The share of all loads that pull up or are held down, see [`Reading::backward`], at the step `peak` of a path of `steps`
+    /// steps.
+    pub(super) fn backward(&self, steps: usize, peak: usize) -> f64 {
+        let path = last(&self.backward, steps);
+        path.get(peak).copied().unwrap_or_default()
     }
 
     pub(super) const fn sheet_layout(&self) -> &SheetLayout {

@@ -78,6 +78,19 @@ pub const TWICE: Case = Case {
 /// The path without iteration.
 pub const MOTION: Case = case("explicit", "slow motion", "--driver explicit", &ALL);
 
+/// The law, the sheets and the mesh of the source.
+pub const SOURCE: Case = Case {
+    with_sheets: Some(
+        "--preset characteristic --law reference --mesh 60x4x1 --soffit-fibre along --sheet-shear half --strip-bond sheet",
+    ),
+    ..case(
+        "source",
+        "law of the source",
+        "--preset characteristic --law reference --mesh 60x4x1",
+        KNOWN,
+    )
+};
+
 /// Numerical settings.
 pub const NUMERICS: [Case; 9] = [
     Case {
@@ -188,7 +201,7 @@ mod tests {
         let cases = cases
             .chain(&COARSE)
             .chain(&FINE)
-            .chain([&DEFAULT, &TWICE, &MOTION]);
+            .chain([&DEFAULT, &TWICE, &MOTION, &SOURCE]);
         let mut names: Vec<&str> = cases.map(|c| c.name).collect();
         let count = names.len();
         names.sort_unstable();

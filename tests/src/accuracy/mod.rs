@@ -4,4 +4,5 @@ pub mod cases;
 pub mod cost;
 pub mod outcome;
 pub mod scatter;
+pub mod source;
 pub mod tables;

@@ -10,10 +10,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use fe_tests::accuracy::cases::{COARSE, Case, DEFAULT, FINE, MOTION, NUMERICS, PARAMETERS, TWICE};
+use fe_tests::accuracy::cases::{
+    COARSE, Case, DEFAULT, FINE, MOTION, NUMERICS, PARAMETERS, SOURCE, TWICE,
+};
 use fe_tests::accuracy::outcome::Outcome;
 use fe_tests::accuracy::tables::{Outcomes, beams, changes, coverage, sensitivities, statistics};
-use fe_tests::accuracy::{cost, scatter};
+use fe_tests::accuracy::{cost, scatter, source};
 use fe_tests::document::fill;
 use fe_tests::provenance::commit;
 
@@ -28,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = arguments
         .next()
         .unwrap_or_else(|| Path::new("results").join("accuracy"));
-    let runs: Vec<(&Case, &'static str)> = [&DEFAULT, &TWICE, &MOTION]
+    let runs: Vec<(&Case, &'static str)> = [&DEFAULT, &TWICE, &MOTION, &SOURCE]
         .into_iter()
         .chain(&NUMERICS)
         .chain(&COARSE)
@@ -45,13 +47,13 @@ fn main() -> Result<(), Box<dyn Error>> {
             outcomes.insert((case.name, beam), outcome);
         }
     }
-    let source = format!("Written at commit {} by `tests/accuracy.sh`.\n", commit());
+    let written = format!("Written at commit {} by `tests/accuracy.sh`.\n", commit());
     let any = |cases: &[Case]| {
         let mut names = outcomes.keys().map(|(name, _)| name);
         names.any(|name| cases.iter().any(|case| case.name == *name))
     };
     let mut tables = vec![
-        ("source", source),
+        ("source", written),
         ("beams", beams(&outcomes)),
         ("statistics", statistics(&outcomes)),
     ];
@@ -62,6 +64,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         tables.push(("numerics", changes(&outcomes, &NUMERICS)));
         tables.push(("cost", cost::table(&outcomes)));
         fs::write(CHART, cost::chart(&outcomes)?)?;
+    }
+    if any(&[SOURCE]) {
+        tables.push(("source-law", source::table(&outcomes)));
     }
     if any(&FINE) {
         tables.push(("scatter", scatter::table(&outcomes)));

@@ -321,7 +321,7 @@ fn metal_section(text: &mut String) -> Result<(), Box<dyn Error>> {
     writeln!(
         text,
         "## Von Mises beam\n\n60x4x1, {DEFLECTION} mm in {INCREMENTS} increments, one thread, medians of {PAIRS} runs. Ours, to a relative \
-         residual of 1e-3: {ours}. CalculiX (`ccx`, C3D20R): {theirs}. Elsewhere measured: FElupe 11.3 10.6 to 13 s, 218 \
+         residual of 1e-3: {ours}. CalculiX (`ccx`, C3D20R): {theirs}. Elsewhere measured: FElupe (version 11.3) 10.6 to 13 s, 218 \
          iterations.\n"
     )?;
     Ok(())

@@ -14,7 +14,10 @@ pub(super) fn report(beams: &[Stored], groups: &[Group], report: &Report) -> Str
     let mut text = format!("# Results of {}\n\n", counted(beams.len()));
     text += &peaks(beams);
     let accuracy = report.accuracy.as_ref();
-    let accuracy = accuracy.map_or_else(|| "No beam has a test.".to_owned(), |a| format!("{a}."));
+    let accuracy = accuracy.map_or_else(
+        || "No beam has both a peak and a test.".to_owned(),
+        |a| format!("{a}."),
+    );
     let _ = writeln!(text, "\n{}\n", capital(&accuracy));
     text += &without_failure(beams);
     text += &settings(beams);

@@ -135,10 +135,10 @@ impl std::fmt::Display for Accuracy {
 impl Report {
     /// The report in one line.
     pub fn line(&self) -> String {
-        let accuracy = self
-            .accuracy
-            .as_ref()
-            .map_or_else(|| "none with a test".to_owned(), Accuracy::to_string);
+        let accuracy = self.accuracy.as_ref().map_or_else(
+            || "none with a peak and a test".to_owned(),
+            Accuracy::to_string,
+        );
         let (path, beams) = (self.path.display(), counted(self.beams));
         format!("{path}: {beams}, {accuracy}")
     }

@@ -148,11 +148,12 @@ pub(super) fn read(folder: &Path) -> (Option<Stored>, Vec<String>) {
         });
         wrong.extend(events.err());
     }
-    // Every run writes its events, and one with sheets two tables of them.
+    // Every run writes its events, gauges and iterations, and one with sheets two tables of them.
     let sheet_tables = ["sheets.csv", MAP];
     let with_sheets = sheet_tables.into_iter().any(has);
     let expected = sheet_tables.into_iter().filter(|_| with_sheets);
-    for file in expected.chain(["events.csv"]).filter(|file| !has(file)) {
+    let always = ["events.csv", "gauges.csv", "newton.csv"];
+    for file in expected.chain(always).filter(|file| !has(file)) {
         wrong.push(format!("{file} is missing"));
     }
     if has("sheets.csv") {
@@ -250,6 +251,9 @@ fn rows(
         .headers()
         .map_err(|e| format!("{file}: {e}"))?
         .clone();
+    if header.is_empty() {
+        return Err(format!("{file} is empty"));
+    }
     let mut count = 0;
     for cells in reader.records() {
         // The header is line 1.

@@ -185,5 +185,34 @@ impl Checks<'_> {
                 "count from 0 at the left",
             );
         }
+        self.equal_spans();
+    }
+
+    /// Shear at an inner support is read off equal shares of the load: every span carries as many loads, between supports
+    /// that hold it up.
+    fn equal_spans(&mut self) {
+        let specimen = self.specimen;
+        for (i, support) in specimen.supports.iter().enumerate() {
+            if !support.held.contains(&Held::Uy) {
+                self.report(
+                    format!("supports[{i}].held"),
+                    "no Uy, where shear at an inner support is measured; allowed: with Uy",
+                    "measure TotalReactions, or hold it up",
+                );
+            }
+        }
+        let ends = specimen.supports.windows(2).map(|pair| {
+            let [from, to] = [0, 1].map(|k| pair[k].x_mm.get());
+            let loads = specimen.loads.iter().map(|load| load.x_mm.get());
+            loads.filter(|x| from < *x && *x < to).count()
+        });
+        let counts: Vec<usize> = ends.collect();
+        if counts.windows(2).any(|pair| pair[0] != pair[1]) {
+            self.report(
+                "measuring.load",
+                format!("shear at an inner support of spans with {counts:?} loads; allowed: as many loads in every span"),
+                "measure TotalReactions",
+            );
+        }
     }
 }
