@@ -25,6 +25,8 @@ pub struct GridBuilder {
     nodes: Vec<[f64; 3]>,
     at: HashMap<[i64; 3], NodeId>,
     blocks: Vec<(String, Vec<NodeId>)>,
+    /// The first block whose lines do not ascend.
+    unordered: Option<String>,
 }
 
 /// Offsets of the 20 nodes of a cell in half steps, VTK order.
@@ -61,6 +63,10 @@ impl GridBuilder {
     /// form one block.
     pub fn add_box(&mut self, block: &str, x: &[f64], y: &[f64], z: &[f64]) {
         let lines = [x, y, z];
+        let mut steps = lines.iter().flat_map(|l| l.windows(2));
+        if steps.any(|pair| pair[1] - pair[0] <= 2.0 * MERGE) {
+            self.unordered.get_or_insert_with(|| block.into());
+        }
         let mut cells = Vec::new();
         for k in 0..z.len().saturating_sub(1) {
             for j in 0..y.len().saturating_sub(1) {
@@ -114,10 +120,13 @@ impl GridBuilder {
     ///
     /// # Errors
     ///
-    /// [`MeshError::NotFinite`] for a line that is not a number, [`MeshError::NoCell`] for a block without a cell: boxes of fewer than two lines in
+    /// [`MeshError::NotFinite`] for a line that is not a number, [`MeshError::Lines`] for lines that do not ascend, [`MeshError::NoCell`] for a block without a cell: boxes of fewer than two lines in
     /// some direction.
     pub fn finish(self) -> Result<Mesh, MeshError> {
         let mut mesh = Mesh::new(self.nodes)?;
+        if let Some(block) = self.unordered {
+            return Err(MeshError::Lines(block));
+        }
         for (name, cells) in self.blocks {
             if cells.is_empty() {
                 return Err(MeshError::NoCell(name));

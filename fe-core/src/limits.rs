@@ -56,3 +56,23 @@ pub fn finite<const N: usize>(
         None => Ok(()),
     }
 }
+
+/// Refuses a relaxation, the share of its growth that a history takes up in a step, outside [0, 1].
+///
+/// # Errors
+///
+/// [`MaterialError::Parameter`].
+pub fn relaxes(law: &'static str, relaxation: f64) -> Result<(), MaterialError> {
+    if (0.0..=1.0).contains(&relaxation) {
+        return Ok(());
+    }
+    let remedy = "give a value in that range";
+    Err(out_of_range(
+        law,
+        "relaxation",
+        relaxation,
+        "-",
+        "[0, 1]",
+        remedy,
+    ))
+}

@@ -93,6 +93,9 @@ pub enum MeshError {
     /// A block of boxes has no cell.
     #[error("block {0} has no cell: give at least two lines in each direction")]
     NoCell(String),
+    /// Lines of a box lie on one another or run backwards.
+    #[error("block {0} has lines that do not ascend: sort them, each one once")]
+    Lines(String),
     /// A coordinate is NaN or infinite.
     #[error("node {0} has a coordinate that is not finite")]
     NotFinite(NodeId),

@@ -5,7 +5,7 @@
 pub struct PathPoint {
     /// Deflection, or another measure that grows along the path.
     pub deflection: f64,
-    /// Load.
+    /// Load, positive the way it grows.
     pub load: f64,
     /// Work-conjugate load, in the unit of `load`.
     pub work_conjugate_load: f64,

@@ -105,7 +105,12 @@ impl StepControl {
         ] {
             SolverError::positive(what, value)?;
         }
-        Ok(())
+        let fits = self.shortest <= self.longest.min(self.initial);
+        SolverError::setting(
+            ("shortest step", self.shortest),
+            "(0, first and longest step]",
+            fits,
+        )
     }
 
     /// Runs a stage to its end, or until the recorder stops it. Returns the reason.

@@ -62,7 +62,7 @@ pub struct RunOptions {
     #[arg(long, value_enum, default_value_t)]
     pub driver: Driver,
 
-    /// Steps to the final deflection at the initial step size, which then adapts
+    /// Steps to the deflection of `--until`, or to that which the specimen imposes, at the initial step size, which then adapts
     #[arg(long, value_name = "N", value_parser = steps, allow_negative_numbers = true)]
     pub steps: Option<u32>,
 

@@ -26,7 +26,7 @@ pub struct MaterialCheck {
     /// Allowed share of steps at a kink, where differences cannot prove the tangent.
     pub kink_share: f64,
     /// Allowed change of stress by an update without strain increment, relative to the largest stress
-    /// of the path so far.
+    /// of the path so far; infinite for a law that is viscous by itself, whose stress changes with time.
     pub drift_tolerance: f64,
     /// Allowed negative dissipation, relative to the energies it is the difference of.
     pub dissipation_tolerance: f64,

@@ -365,9 +365,7 @@ impl FixedCrack {
         if !(band_width.is_finite() && band_width > 0.0) {
             return Err(out_of_range("band_width", band_width, "mm", "(0, inf)"));
         }
-        if !(0.0..=1.0).contains(&relaxation) {
-            return Err(out_of_range("relaxation", relaxation, "-", "[0, 1]"));
-        }
+        crate::limits::relaxes(NAME, relaxation)?;
         Ok(Envelopes {
             tension: Tension::new(&self.p, self.p.ft_mpa, band_width)?,
             compression: Compression::new(&self.p, band_width)?,

@@ -13,7 +13,7 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 use super::elastic_bound::{norm, surely_elastic};
 use super::plastic_state::PlasticState;
 use super::{CompressionCurve, ConcreteScalars, Isochoric};
-use crate::limits::{finite, positive};
+use crate::limits::{finite, positive, relaxes};
 use damage::Softening;
 use split::Split;
 
@@ -199,6 +199,7 @@ impl Material<Solid> for Objective {
         ctx: &PointContext,
     ) -> Result<Response<Solid>, MaterialError> {
         finite(LAW, strain)?;
+        relaxes(LAW, ctx.relaxation)?;
         let softening = self.softening(ctx.band_width)?;
         let curve = self.compression(ctx.band_width);
         let mut state = State::read(committed);

@@ -16,7 +16,7 @@ pub use parameters::{ReferenceParameters, ShearRetention, TensionStiffening};
 
 use super::elastic_bound::{absolute_sum, surely_elastic};
 use super::{CompressionCurve, Isochoric};
-use crate::limits::finite;
+use crate::limits::{finite, relaxes};
 use state::{STATE_VARS, State};
 
 const LAW: &str = "reference concrete";
@@ -149,6 +149,7 @@ impl Material<Solid> for Reference {
         ctx: &PointContext,
     ) -> Result<Response<Solid>, MaterialError> {
         finite(LAW, strain)?;
+        relaxes(LAW, ctx.relaxation)?;
         let mut state = State::read(committed);
         let intact = if state.is_cracked() {
             None
