@@ -210,6 +210,14 @@ mod tests {
         free.bounded(10.0, 19.3, 350.0).unwrap()
     }
 
+    /// Source: He and Kwan (2001), by hand for phi 8, fc = 25 MPa, E = 200 GPa, h = 50 mm: k = 127 * 0.8 * 5/4 = 127 N/mm3,
+    /// E I = 64 pi E = 40.2124e6 N mm2, beta = (127 * 8/(4 E I))^(1/4) = 0.0501324 /mm. Target: E I beta^3 h = 253 329 N to 5 digits.
+    #[test]
+    fn stiffness_of_the_foundation() {
+        let dowel = Dowel::he_kwan(8.0, 25.0, 200e3, 50.0, [0.0, 0.0, 1.0]).unwrap();
+        assert!((dowel.at(1e-3, 0.0, 0.0).force / 253.329 - 1.0).abs() < 1e-5);
+    }
+
     /// Stiff below the strength, at the strength above it, and stiff again on the way back, with the slid strain kept.
     #[test]
     fn a_dowel_slides_at_its_strength() {

@@ -159,6 +159,16 @@ fn lateral_compression_weakens_tension() {
     assert_relative_eq!(peak, 0.7375 * p.fctm_mpa, max_relative = 5e-3);
 }
 
+/// CEB Bulletin 156: no compression leaves less than half of the tensile strength; at 0.9 of the strength, where the fit would
+/// leave 0.26, a stress counts twice.
+#[test]
+fn half_of_the_tensile_strength_is_left() {
+    let p = concrete();
+    let drive = law().drive(&Vector3::new(1.0, 0.0, -0.9 * p.fcm_mpa));
+    assert_relative_eq!(drive.value, 2.0 / p.young_mpa, max_relative = 1e-12);
+    assert_eq!(drive.third, 0.0);
+}
+
 /// Benchmark STAB-11 (tension to cracking, then strain increments 0.5, 0.75 and shear 1): the principal stress
 /// stays below 1.05 fctm and all stresses vanish.
 #[test]

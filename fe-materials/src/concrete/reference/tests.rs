@@ -132,6 +132,24 @@ fn tension_stiffening() {
     );
 }
 
+/// Cracks across the other axes open at fctm as the first does, and stiffen as it does. Target: the formula.
+#[test]
+fn later_cracks_open_at_the_tensile_strength() {
+    let p = concrete();
+    let onset = p.fctm_mpa / p.young_mpa;
+    let stiffened = |e: f64| 0.6 * p.fctm_mpa * (1.0 - e / 0.01);
+    let mut point = Point::new(law(TensionStiffening::Stirrups));
+    let opened = |y: f64, z: f64| Vector6::new(1e-3, y, z, 0.0, 0.0, 0.0);
+    point.stress(opened(0.2 * onset, 0.0));
+    let below = point.stress(opened(0.999 * onset, 0.0));
+    assert_relative_eq!(below[1], 0.999 * p.fctm_mpa, max_relative = 1e-9);
+    let second = point.stress(opened(1.001 * onset, 0.999 * onset));
+    assert_relative_eq!(second[1], stiffened(1.001 * onset), max_relative = 1e-9);
+    assert_relative_eq!(second[2], 0.999 * p.fctm_mpa, max_relative = 1e-9);
+    let third = point.stress(opened(1.001 * onset, 1.001 * onset));
+    assert_relative_eq!(third[2], stiffened(1.001 * onset), max_relative = 1e-9);
+}
+
 /// A crack closes with full stiffness; compression across it follows the compression curve and unloads to
 /// the plastic strain.
 #[test]
