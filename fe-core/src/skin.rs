@@ -180,6 +180,29 @@ mod tests {
         assert!(outer_faces(&mesh, &["nothing"]).is_empty());
     }
 
+    /// Where two faces meet at a slope of 1 in 10, 5.7 degrees, a layer keeps its distance from both.
+    #[test]
+    fn layers_keep_their_distance_at_a_slight_bend() {
+        let straight = two_cells();
+        let bent = |[x, y, z]: [f64; 3]| [x, y + 0.1 * (x - 2.0).max(0.0), z];
+        let mut mesh = Mesh::new(straight.nodes().iter().copied().map(bent).collect()).unwrap();
+        let cells = straight.block("a").unwrap().cells().flatten();
+        mesh.add_block("a", CellKind::Hex20, cells.copied().collect())
+            .unwrap();
+        let mut faces = outer_faces(&mesh, &["a"]);
+        faces.retain(|f| f.normal[1] < -0.9);
+        assert_eq!(faces.len(), 2);
+        let mut layers = Layers::over(&faces);
+        for face in &faces {
+            let copies = layers.nodes(&mut mesh, face.nodes, 0, 0.1).unwrap();
+            for (below, above) in face.nodes.into_iter().zip(copies) {
+                let (p, q) = (mesh.nodes()[below], mesh.nodes()[above]);
+                let distance: f64 = (0..3).map(|k| face.normal[k] * (q[k] - p[k])).sum();
+                assert!((distance - 0.1).abs() < 1e-12, "{distance}");
+            }
+        }
+    }
+
     #[test]
     fn layers_are_mitred_and_shared() {
         let mut mesh = two_cells();

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use common::{Brick, Damage, Flaw, Truss};
 use fe_core::assembly::Assembler;
+use fe_core::check;
 use fe_core::dof::Dof;
 use fe_core::element::Element;
 use fe_core::followers::Followers;
@@ -64,9 +65,13 @@ fn boxes_of_one_name_form_one_block_and_lines_must_be_numbers() {
     let mesh = grid.finish().unwrap();
     assert_eq!((mesh.blocks().len(), mesh.blocks()[0].len()), (1, 3));
     assert_eq!(mesh.bounding_box(), [[0.0; 3], [4.0, 1.0, 1.0]]);
-    let mut grid = GridBuilder::new();
-    grid.add_box("beam", &[0.0, f64::NAN], &[0.0, 1.0], &[0.0, 1.0]);
-    assert!(matches!(grid.finish(), Err(MeshError::NotFinite(_))));
+    // After a sound cell, at whose nodes the others must not end.
+    for lines in [[0.0, f64::NAN, 1.0], [0.0, 1.0, f64::NAN]] {
+        let mut grid = GridBuilder::new();
+        grid.add_box("first", &[0.0, 1.0], &[0.0, 1.0], &[0.0, 1.0]);
+        grid.add_box("beam", &lines, &[0.0, 1.0], &[0.0, 1.0]);
+        assert!(matches!(grid.finish(), Err(MeshError::NotFinite(_))));
+    }
     let mut grid = GridBuilder::new();
     grid.add_box("flat", &[0.0, 1.0], &[0.0], &[0.0, 1.0]);
     assert_eq!(grid.finish(), Err(MeshError::NoCell("flat".into())));
@@ -208,6 +213,42 @@ fn an_element_on_a_follower_is_refused() {
         ModelError::OnFollower {
             element: 0,
             node: 0
+        }
+    );
+}
+
+/// A follower of a follower would move by neither.
+#[test]
+fn a_chain_of_followers_is_refused() {
+    let places = [[0.0; 3], [0.0, 0.0, 5.0], [0.0, 0.0, 9.0], [9.0, 0.0, 0.0]];
+    let bar = Truss::new([2, 3], &places, Arc::new(Damage(Flaw::None)), Flaw::None);
+    let mesh = Mesh::new(places.to_vec()).unwrap();
+    let mut followers = Followers::uniform_across(&mesh, [0, 1]);
+    followers.extend(Followers::uniform_across(&mesh, [1, 2]));
+    assert_eq!(
+        Model::with_followers(mesh, vec![Box::new(bar)], followers).unwrap_err(),
+        ModelError::Chain { node: 0, leader: 1 }
+    );
+}
+
+/// Three nodes at one place, connected by two elements in series through the one in between, are no seam; without the second
+/// element they are.
+#[test]
+fn elements_in_series_leave_no_seam() {
+    let places = [[0.0; 3], [0.0; 3], [0.0; 3], [9.0, 0.0, 0.0]];
+    let model = |ends: &[[usize; 2]]| {
+        let law = Arc::new(Damage(Flaw::None));
+        let bar = |&ends| Truss::new(ends, &places, law.clone(), Flaw::None);
+        let elements = ends.iter().map(|e| Box::new(bar(e)) as Box<dyn Element>);
+        Model::new(Mesh::new(places.to_vec()).unwrap(), elements.collect()).unwrap()
+    };
+    let bars = [[0, 3], [1, 3], [0, 2], [2, 1]];
+    check::joined(&model(&bars)).unwrap();
+    assert_eq!(
+        check::joined(&model(&bars[..3])).unwrap_err(),
+        ModelError::Seam {
+            nodes: [0, 1],
+            position: [0.0; 3]
         }
     );
 }

@@ -225,6 +225,12 @@ fn a_failed_rewrite_leaves_the_collection_as_it_was() {
     );
     // A folder in place of the temporary file makes the next rewrite fail.
     fs::create_dir(folder.join("run.pvd.part")).unwrap();
-    assert!(pvd.add(2.0, &["b.vtu".to_owned()]).is_err());
+    let added = ["b.vtu".to_owned()];
+    assert!(pvd.add(2.0, &added).is_err());
     assert_eq!(fs::read_to_string(&path).unwrap(), before);
+    // Made again, the addition is there once.
+    fs::remove_dir(folder.join("run.pvd.part")).unwrap();
+    pvd.add(2.0, &added).unwrap();
+    let after = fs::read_to_string(&path).unwrap();
+    assert_eq!(after.matches("<DataSet").count(), 2, "{after}");
 }

@@ -5,6 +5,7 @@ mod common;
 use common::{Damage, Elastic, Flaw, YOUNG};
 use fe_core::material::PointContext;
 use fe_core::point::{Control, PointDriver, PointError, Segment};
+use nalgebra::Matrix6;
 
 use Control::{Strain, Stress};
 
@@ -121,4 +122,16 @@ fn impossible_programs_are_refused_before_anything_runs() {
         assert!(failure.starts_with(start), "{failure}");
         assert_eq!(point.history().rows().len(), 1);
     }
+}
+
+/// A stress that is no number is no answer, though nothing is to be iterated where all strains are given.
+#[test]
+fn a_stress_that_is_no_number_is_refused() {
+    let law = Elastic::new(&Matrix6::repeat(f64::NAN));
+    let mut point = PointDriver::new(&law, CTX).unwrap();
+    let failure = point.run(&[Segment::new(vec![Strain(1e-4); 6], 1)]);
+    assert!(
+        matches!(failure, Err(PointError::NoConvergence { residual, .. }) if residual.is_nan())
+    );
+    assert_eq!(point.history().rows().len(), 1);
 }

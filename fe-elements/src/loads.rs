@@ -95,6 +95,23 @@ mod tests {
         }
     }
 
+    /// Faces of a wedge: one drawn together to a triangle of 20 mm x 10 mm carries the pressure on its area, one drawn together
+    /// to an edge carries nothing; no force is lost to a normal that is none.
+    #[test]
+    fn collapsed_faces_carry_what_is_left_of_them() {
+        let nodes = std::array::from_fn(|i| i);
+        let triangle = quad8::NODES.map(|[x, y]| [10.0 * x, 2.5 * (1.0 + x) * y, 0.0]);
+        let edge = quad8::NODES.map(|[x, _]| [10.0 * x, 0.0, 0.0]);
+        for (coords, area) in [(triangle, 100.0), (edge, 0.0)] {
+            let forces = face_pressure(&nodes, &coords, -2.0);
+            for k in 0..3 {
+                let total: f64 = forces.iter().map(|(_, f)| f[k]).sum();
+                let expected = if k == 2 { 2.0 * area } else { 0.0 };
+                assert!((total - expected).abs() < 1e-12 * 200.0, "{total}");
+            }
+        }
+    }
+
     #[test]
     fn the_weight_of_a_box_is_carried_in_full() {
         let nodes = std::array::from_fn(|i| i);

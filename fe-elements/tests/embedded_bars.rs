@@ -159,6 +159,23 @@ fn a_long_bar_finds_every_short_cell() {
     assert_eq!(elements.len(), cells as usize);
 }
 
+/// A bar along a warped face that hosts share stays with the first of them up to its end, however rounding takes it out and in.
+#[test]
+fn a_bar_along_a_shared_face_is_not_chopped() {
+    let mut grid = GridBuilder::new();
+    let lines = [0.0, 20.0, 40.0];
+    grid.add_box("block", &lines, &lines, &lines[..2]);
+    let straight = grid.finish().unwrap();
+    let skewed = |[x, y, z]: [f64; 3]| [x + 3.0 * (y / 20.0) * (z / 20.0), y, z];
+    let mut mesh = Mesh::new(straight.nodes().iter().copied().map(skewed).collect()).unwrap();
+    let cells = straight.blocks()[0].cells().flatten().copied().collect();
+    mesh.add_block("block", CellKind::Hex20, cells).unwrap();
+    let along = bar(vec![[5.0, 20.0, 10.0], [35.0, 20.0, 10.0]]);
+    let elements = embed(&[along], &mesh, &["block"]).unwrap();
+    assert_eq!(elements.len(), 2);
+    assert!((embedded_length(&mesh, &elements) - 30.0).abs() < 1e-9);
+}
+
 /// The first point without a host is named: the start, or the place where the bar leaves.
 #[test]
 fn a_bar_that_leaves_the_mesh_is_named_with_the_place() {

@@ -77,6 +77,22 @@ fn inverted_cells_are_refused() {
     );
 }
 
+/// Two corners of one edge exchanged, as by a slip in a list of nodes, are refused whatever the rule sees.
+#[test]
+fn exchanged_corners_are_refused() {
+    for edge in [0, 1, 2, 3].map(|a| [[a, (a + 1) % 4], [a + 4, (a + 1) % 4 + 4], [a, a + 4]]) {
+        for [a, b] in edge {
+            let mut coords = cell();
+            coords.swap(a, b);
+            for rule in [HexRule::Reduced, HexRule::Irons, HexRule::Full] {
+                let error = build(&coords, rule, BandWidth::CubeRoot).unwrap_err();
+                let folded = matches!(error, ElementError::Jacobian { .. });
+                assert!(folded, "{a} {b} {rule:?}: {error}");
+            }
+        }
+    }
+}
+
 /// A corner pulled into the cell folds it near there only: at the 2x2x2 points the map looks sound, at those of 3x3x3 not.
 #[test]
 fn a_folded_corner_is_refused() {

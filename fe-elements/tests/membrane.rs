@@ -8,7 +8,7 @@ use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext};
 use fe_core::kinematics::PlaneStress;
 use fe_core::material::{Material, Operator};
 use fe_core::shape::quad8;
-use fe_elements::{Membrane8, QuadRule};
+use fe_elements::{Membrane8, Quad8, QuadRule};
 use fe_materials::{Elastic, Lamina, LaminaParameters, Laminate, Ply};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
@@ -186,4 +186,22 @@ fn impossible_membranes_are_refused() {
     let nodes = std::array::from_fn(|a| a);
     let thin = Membrane8::new(nodes, &flat, 0.0, QuadRule::Full, axis, law());
     assert!(matches!(thin, Err(ElementError::Input { .. })));
+}
+
+/// Two corners of one edge exchanged are refused whatever the rule sees, in space and in the plane.
+#[test]
+fn exchanged_corners_are_refused() {
+    for a in 0..4 {
+        let mut flat = quad8::NODES.map(|[x, y]| [30.0 * x, 20.0 * y]);
+        flat.swap(a, (a + 1) % 4);
+        let folded = |error| matches!(error, ElementError::Jacobian { .. });
+        for rule in RULES {
+            let coords = flat.map(|[x, y]| [x, y, 0.0]);
+            let membrane = build(&coords, rule, [1.0, 0.0, 0.0], Arc::new(lamina()));
+            assert!(folded(membrane.unwrap_err()), "{a} {rule:?}");
+            let nodes = std::array::from_fn(|n| n);
+            let plane = Quad8::new(nodes, &flat, 0.5, rule, Arc::new(lamina()));
+            assert!(folded(plane.unwrap_err()), "{a} {rule:?}");
+        }
+    }
 }

@@ -183,6 +183,31 @@ fn no_equations_and_no_factor_are_not_a_panic() {
     solver.solve_in_place(&mut []).unwrap();
 }
 
+/// Values and right-hand sides of another pattern are refused by name, factorised or not.
+#[test]
+fn what_has_another_length_is_refused() {
+    let p = pattern(33);
+    let sound = values(&p, 1, |_| 4.0, false);
+    let mut solver = DirectSolver::default();
+    solver.analyze(&p).unwrap();
+    solver.factorize(&sound).unwrap();
+    let cut = |mut v: MatrixValues| {
+        v.lower.pop();
+        v
+    };
+    let mut upper = sound.clone();
+    upper.upper = sound.lower[1..].to_vec();
+    let mismatch = |error| matches!(error, LinearError::Mismatch { .. });
+    for n in [32, 34] {
+        let mut rhs = vec![1.0; n];
+        assert!(mismatch(solver.solve_in_place(&mut rhs).unwrap_err()));
+        assert!(mismatch(solver.precondition(&mut rhs).unwrap_err()));
+    }
+    assert!(mismatch(solver.renew(&cut(sound.clone())).unwrap_err()));
+    assert!(mismatch(solver.factorize(&cut(sound)).unwrap_err()));
+    assert!(mismatch(solver.factorize(&upper).unwrap_err()));
+}
+
 /// Equations on the points of a grid, coupled within its cells; numbered along x.
 fn grid(cells: [u32; 3], per_point: u32) -> Sparsity {
     let points = cells.map(|n| n + 1);
