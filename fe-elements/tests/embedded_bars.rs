@@ -171,9 +171,14 @@ fn a_bar_along_a_shared_face_is_not_chopped() {
     let cells = straight.blocks()[0].cells().flatten().copied().collect();
     mesh.add_block("block", CellKind::Hex20, cells).unwrap();
     let along = bar(vec![[5.0, 20.0, 10.0], [35.0, 20.0, 10.0]]);
-    let elements = embed(&[along], &mesh, &["block"]).unwrap();
-    assert_eq!(elements.len(), 2);
-    assert!((embedded_length(&mesh, &elements) - 30.0).abs() < 1e-9);
+    let hosts = Hosts::new(&mesh, &["block"]).unwrap();
+    let pieces = hosts.cut(&along).unwrap();
+    let ends = pieces.iter().map(|p| (p.host, p.ends.map(|x| x.x)));
+    let [(first, [start, face]), (second, [_, end])] = ends.collect::<Vec<_>>()[..] else {
+        panic!("{pieces:?}")
+    };
+    assert_eq!((first, second, start, end), (0, 1, 5.0, 35.0));
+    assert!((face - 21.5).abs() < 1e-6, "{face}");
 }
 
 /// The first point without a host is named: the start, or the place where the bar leaves.

@@ -468,6 +468,81 @@ impl Done {
 mod tests {
     //! Protects the step control from settings with which it would never end.
     use super::*;
+    use std::sync::Arc;
+
+    use fe_core::grid::GridBuilder;
+    use fe_core::model::{Conditions, Model};
+    use fe_core::shape::hex20;
+    use fe_core::state::StateStore;
+    use fe_elements::{BandWidth, Hex20, HexRule};
+    use fe_materials::Elastic;
+
+    use crate::driver::IterationLog;
+    use crate::recorder::Silent;
+    use crate::stage::Residual;
+
+    /// Never arrives; counts how often it is asked.
+    #[derive(Debug)]
+    struct Never(usize);
+
+    impl Driver for Never {
+        fn name(&self) -> &'static str {
+            "never"
+        }
+
+        fn attempt(
+            &mut self,
+            stage: &mut Stage<'_>,
+            request: Request,
+            _: &mut IterationLog<'_>,
+        ) -> Result<Attempt, SolverError> {
+            self.0 += 1;
+            assert!(self.0 < 100, "asked again for {}", request.length);
+            Ok(Attempt {
+                displacement: stage.displacement().to_vec(),
+                lambda: stage.lambda() + request.length,
+                converged: false,
+                residual: Residual {
+                    relative: 1.0,
+                    largest: 1.0,
+                    worst: 0,
+                },
+                iterations: 1,
+                held: false,
+                means: None,
+                lag: None,
+            })
+        }
+    }
+
+    /// Whatever share a failed step is cut to, 0.7 being no power of the halves of the shortest, the attempts have an end.
+    #[test]
+    fn steps_that_never_converge_end() {
+        let mut grid = GridBuilder::new();
+        grid.add_box("cube", &[0.0, 2.0], &[0.0, 2.0], &[0.0, 2.0]);
+        let mesh = grid.finish().unwrap();
+        let law = Arc::new(Elastic::new(30e3, 0.2).unwrap());
+        let nodes = std::array::from_fn(|a| a);
+        let (rule, band) = (HexRule::Full, BandWidth::CubeRoot);
+        let cube = Hex20::new(nodes, &hex20::NODES, rule, law, band).unwrap();
+        let model = Model::new(mesh, vec![Box::new(cube)]).unwrap();
+        for cut in [0.5, 0.7, 0.99] {
+            let mut state = StateStore::new(model.elements());
+            let start = vec![0.0; model.dofs().len()];
+            let conditions = Conditions::new(&model);
+            let mut stage = Stage::new(&model, conditions, &mut state, start).unwrap();
+            let control = StepControl {
+                cut,
+                shortest: 0.5,
+                ..StepControl::new(1.0, 4.0)
+            };
+            let end = control.run(&mut stage, &mut Never(0), &mut Silent);
+            assert!(
+                matches!(end, Err(SolverError::NoConvergence { step, .. }) if step < 1.0),
+                "{end:?}"
+            );
+        }
+    }
 
     #[test]
     fn lengths_that_lead_nowhere_are_refused_by_name() {

@@ -51,7 +51,8 @@ impl Recorder for Seen {
     }
 }
 
-fn run(driver: &mut dyn Driver, earlier: Vec<Entry>) -> Seen {
+/// The whole way in twenty steps, shared by drivers that follow one another.
+fn run(drivers: &mut [&mut dyn Driver], earlier: Vec<Entry>) -> Seen {
     let across = lines(0.0, 20.0, 1);
     let mesh = boxes(&lines(0.0, 120.0, 6), &across, &across).unwrap();
     let law: Arc<dyn Material<Solid>> = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
@@ -75,8 +76,10 @@ fn run(driver: &mut dyn Driver, earlier: Vec<Entry>) -> Seen {
         earlier: earlier.into(),
         ..Seen::default()
     };
-    let control = StepControl::new(0.05, 1.0);
-    control.run(&mut stage, driver, &mut seen).unwrap();
+    let control = StepControl::new(0.05, 1.0 / drivers.len() as f64);
+    for driver in drivers {
+        control.run(&mut stage, *driver, &mut seen).unwrap();
+    }
     seen
 }
 
@@ -88,14 +91,15 @@ fn moving(periods: f64) -> Explicit {
     .unwrap()
 }
 
+fn newton() -> NewtonRaphson {
+    NewtonRaphson::new(NewtonSettings::default())
+}
+
 #[test]
 fn a_slow_motion_meets_the_static_path_and_says_how_far_it_is_from_it() {
-    let exact = run(
-        &mut NewtonRaphson::new(NewtonSettings::default()),
-        Vec::new(),
-    );
+    let exact = run(&mut [&mut newton()], Vec::new());
     assert!(exact.kinetic.iter().all(Option::is_none));
-    let [slow, fast] = [20.0, 10.0].map(|periods| run(&mut moving(periods), Vec::new()));
+    let [slow, fast] = [20.0, 10.0].map(|periods| run(&mut [&mut moving(periods)], Vec::new()));
     // A mean over a step belongs to its middle.
     let middle = 0.5 * (exact.loads[18] + exact.loads[19]);
     let error = slow.loads[19] / middle - 1.0;
@@ -105,11 +109,22 @@ fn a_slow_motion_meets_the_static_path_and_says_how_far_it_is_from_it() {
     assert!(slow.residuals[19] > 1e-6, "unbalanced forces are told");
 }
 
+/// A motion takes over where statics have led, at rest, and arrives where they would.
+#[test]
+fn a_motion_begins_at_an_accepted_state() {
+    let exact = run(&mut [&mut newton()], Vec::new());
+    let seen = run(&mut [&mut newton(), &mut moving(20.0)], Vec::new());
+    assert_eq!(seen.loads[..10], exact.loads[..10]);
+    let middle = 0.5 * (exact.loads[18] + exact.loads[19]);
+    let error = seen.loads[19] / middle - 1.0;
+    assert!(error.abs() < 0.01, "{error}");
+}
+
 #[test]
 fn a_motion_is_continued_to_the_last_bit() {
-    let whole = run(&mut moving(10.0), Vec::new());
+    let whole = run(&mut [&mut moving(10.0)], Vec::new());
     let first = whole.kept[..7].to_vec();
-    let again = run(&mut moving(10.0), first);
+    let again = run(&mut [&mut moving(10.0)], first);
     assert_eq!(again.kept.len(), whole.kept.len() - 7);
     assert_eq!(again.loads, whole.loads);
     assert_eq!(again.kept, whole.kept[7..]);

@@ -3,15 +3,16 @@
 use std::sync::Arc;
 
 use fe_core::dof::Dof;
-use fe_core::element::EvaluationContext;
+use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext};
 use fe_core::material::Operator;
-use fe_core::mesh::Mesh;
+use fe_core::mesh::{Mesh, NodeId};
 use fe_core::model::{Conditions, Model};
 use fe_core::shape::quad8;
 use fe_core::state::StateStore;
 use fe_elements::{Layer, QuadRule, Shell8, ShellSection};
 use fe_materials::Elastic;
 use fe_solver::stage::Stage;
+use fe_tests::solve::solve;
 
 /// Target: a cantilever shell of 3 m that takes half of the displacements of the solution misses half of its load, by a
 /// relative residual of 0.2 at least; the moment at its root, 3000 times the load, once made that 3e-4.
@@ -60,4 +61,50 @@ fn a_clamped_shell_out_of_equilibrium_is_seen() {
     assert!(whole < 1e-6, "{whole}");
     let half = relative(0.5);
     assert!(half > 0.2, "{half}");
+}
+
+/// M = k theta about z at one node.
+#[derive(Debug)]
+struct Grounded(f64);
+
+impl Element for Grounded {
+    fn nodes(&self) -> &[NodeId] {
+        &[0]
+    }
+
+    fn dofs(&self) -> &'static [Dof] {
+        &[Dof::Rz]
+    }
+
+    fn state_len(&self) -> usize {
+        0
+    }
+
+    fn init_state(&self, _: &mut [f64]) {}
+
+    fn evaluate(
+        &self,
+        u: &[f64],
+        _: &[f64],
+        _: &mut [f64],
+        _: &EvaluationContext,
+        out: ElementSystem<'_>,
+    ) -> Result<(), ElementError> {
+        out.force[0] += self.0 * u[0];
+        if let Some(k) = out.stiffness.first_mut() {
+            *k += self.0;
+        }
+        Ok(())
+    }
+}
+
+/// A model without extent offers no lever that would make forces of its moments. Target: theta = M/k.
+#[test]
+fn a_spring_at_one_node_finds_its_angle() {
+    let mesh = Mesh::new(vec![[5.0, 0.0, 0.0]]).unwrap();
+    let model = Model::new(mesh, vec![Box::new(Grounded(4e6))]).unwrap();
+    let mut conditions = Conditions::new(&model);
+    conditions.add_reference(&model, 0, Dof::Rz, 1e3).unwrap();
+    let solution = solve(&model, conditions).unwrap();
+    assert!((solution.at(&model, 0, Dof::Rz) / 2.5e-4 - 1.0).abs() < 1e-12);
 }
