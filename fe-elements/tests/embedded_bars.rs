@@ -159,26 +159,31 @@ fn a_long_bar_finds_every_short_cell() {
     assert_eq!(elements.len(), cells as usize);
 }
 
-/// A bar along a warped face that hosts share stays with the first of them up to its end, however rounding takes it out and in.
+/// A bar along a face that hosts share, bent over by 3 mm at one edge, stays with the first of them up to its end, however
+/// rounding takes it out and in.
 #[test]
 fn a_bar_along_a_shared_face_is_not_chopped() {
     let mut grid = GridBuilder::new();
     let lines = [0.0, 20.0, 40.0];
     grid.add_box("block", &lines, &lines, &lines[..2]);
     let straight = grid.finish().unwrap();
-    let skewed = |[x, y, z]: [f64; 3]| [x + 3.0 * (y / 20.0) * (z / 20.0), y, z];
+    let skewed = |[x, y, z]: [f64; 3]| {
+        let by = if x == 20.0 { y * z * 3.0 / 400.0 } else { 0.0 };
+        [x + by, y, z]
+    };
     let mut mesh = Mesh::new(straight.nodes().iter().copied().map(skewed).collect()).unwrap();
     let cells = straight.blocks()[0].cells().flatten().copied().collect();
     mesh.add_block("block", CellKind::Hex20, cells).unwrap();
-    let along = bar(vec![[5.0, 20.0, 10.0], [35.0, 20.0, 10.0]]);
     let hosts = Hosts::new(&mesh, &["block"]).unwrap();
-    let pieces = hosts.cut(&along).unwrap();
-    let ends = pieces.iter().map(|p| (p.host, p.ends.map(|x| x.x)));
-    let [(first, [start, face]), (second, [_, end])] = ends.collect::<Vec<_>>()[..] else {
-        panic!("{pieces:?}")
-    };
-    assert_eq!((first, second, start, end), (0, 1, 5.0, 35.0));
-    assert!((face - 21.5).abs() < 1e-6, "{face}");
+    for z in [7.0, 10.0] {
+        let along = bar(vec![[5.0, 20.0, z], [35.0, 20.0, z]]);
+        let pieces = hosts.cut(&along).unwrap();
+        let ends = pieces.iter().map(|p| (p.host, p.ends.map(|x| x.x)));
+        let [(0, [5.0, face]), (1, [_, 35.0])] = ends.collect::<Vec<_>>()[..] else {
+            panic!("{pieces:?}")
+        };
+        assert!((face - 20.0 - 0.15 * z).abs() < 1e-6, "{face}");
+    }
 }
 
 /// The first point without a host is named: the start, or the place where the bar leaves.
