@@ -105,6 +105,7 @@ fn path(turn: Rotation3<f64>) -> Vec<[f64; 2]> {
     path
 }
 
+/// Protects laws, elements and the solver from depending on the axes of the mesh, cracks and all.
 #[test]
 fn a_turned_model_takes_the_same_path() {
     let axis = Unit::new_normalize(Vector3::new(1.0, -2.0, 0.7));

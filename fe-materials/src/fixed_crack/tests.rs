@@ -213,7 +213,7 @@ fn a_narrow_crack_carries_no_more_shear_than_its_faces() {
 }
 
 /// What is crushed along a crack holds its faces no better than itself, Ec(kc)/E, though their interlock at w = 0.05 mm would
-/// carry forty times that.
+/// carry a hundred times that.
 #[test]
 fn crushed_concrete_does_not_interlock() {
     let p = parameters();
