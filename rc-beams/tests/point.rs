@@ -59,7 +59,7 @@ fn mistakes_in_a_case_are_named_with_their_place() {
         (
             "steps: 100",
             "steps: -100",
-            "steps: a negative or far too large number; allowed: whole numbers from 0 on",
+            "steps: a negative or far too large number; allowed: whole numbers that are not negative",
         ),
         ("steps: 100", "steps: 0", "segment 2 has steps = 0"),
         (

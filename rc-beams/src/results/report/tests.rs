@@ -32,6 +32,8 @@ fn store(root: &Path, name: &str, peak: f64, test: Option<f64>) {
     fs::write(folder.join("history.csv"), history).unwrap();
     let events = "event,step,deflection_mm,load_kn,x_mm,y_mm,z_mm,where,detail\n";
     fs::write(folder.join("events.csv"), events).unwrap();
+    fs::write(folder.join("gauges.csv"), "deflection_mm,load_kn\n1,1\n").unwrap();
+    fs::write(folder.join("newton.csv"), "step,attempt\n1,1\n").unwrap();
 }
 
 fn results() -> TempDir {
