@@ -27,7 +27,7 @@ pub const B: f64 = 20.0;
 pub const H: f64 = 1.5;
 /// Fracture energy (N/mm).
 pub const ENERGY: f64 = 0.28;
-/// Thickness of an arm (mm).
+/// Half of the span L of the end-notched flexure specimen (mm), loaded in the middle.
 pub const HALF_SPAN: f64 = 50.0;
 
 /// Delamination in both modes.

@@ -18,6 +18,8 @@ pub struct DenseModel {
     dofs: usize,
     /// Eigenvalues (N/mm) and orthonormal eigenvectors of the stiffness of the free equations.
     eigen: SymmetricEigen<f64, nalgebra::Dyn>,
+    /// The stiffness scaled to a unit diagonal.
+    scaled: DMatrix<f64>,
 }
 
 impl DenseModel {
@@ -38,11 +40,22 @@ impl DenseModel {
         for (&value, (i, j)) in &out.matrix.to_csc(pattern) {
             stiffness[(i, j)] = value;
         }
+        let diagonal = stiffness.diagonal();
+        let scaled = DMatrix::from_fn(stiffness.nrows(), stiffness.ncols(), |i, j| {
+            stiffness[(i, j)] / (diagonal[i] * diagonal[j]).sqrt()
+        });
         Ok(Self {
             free: assembler.free().iter().map(|&d| d as usize).collect(),
             dofs: rest.len(),
             eigen: SymmetricEigen::new(stiffness),
+            scaled,
         })
+    }
+
+    /// Largest over least eigenvalue of the stiffness scaled to a unit diagonal.
+    pub fn condition(&self) -> f64 {
+        let eigenvalues = self.scaled.symmetric_eigenvalues();
+        eigenvalues.max() / eigenvalues.min()
     }
 
     fn modes(&self, zero: bool) -> impl Iterator<Item = usize> + '_ {

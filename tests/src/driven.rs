@@ -5,8 +5,10 @@ use fe_core::state::StateStore;
 use fe_solver::control::StepControl;
 use fe_solver::driver::Driver;
 use fe_solver::error::SolverError;
-use fe_solver::recorder::{Continue, Recorder, StepView};
+use fe_solver::recorder::{Continue, IterationRecord, Recorder, StepView};
 use fe_solver::stage::{Counters, Stage};
+
+use crate::follow::marked;
 
 /// One way of the imposed displacement: how far (mm), and in steps of what length (mm).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,12 +24,13 @@ pub struct Leg {
 pub struct Driven {
     /// Displacement and load of every step.
     pub points: Vec<[f64; 2]>,
-    /// Iterations of every step.
+    /// Iterations of every step: the first solution of an attempt counts, and so do attempts that were given up. The step
+    /// that ended it, if one did, is the last.
     pub iterations: Vec<usize>,
-    /// Steps that jumped, or missed the criterion.
+    /// Steps that are [`marked`].
     pub marked: usize,
-    /// Largest number of negative pivots.
-    pub negative: usize,
+    /// Negative pivots at every step; none where they were not counted.
+    pub negative: Vec<Option<usize>>,
     /// Viscous work over the work, of drivers whose laws lag behind.
     pub viscous: Option<f64>,
     /// Why it did not arrive.
@@ -37,15 +40,21 @@ pub struct Driven {
     from: f64,
     sign: f64,
     criterion: f64,
+    /// Iterations of the step under way.
+    under_way: usize,
 }
 
 impl Recorder for Driven {
+    fn iteration(&mut self, _record: &IterationRecord) -> std::io::Result<()> {
+        self.under_way += 1;
+        Ok(())
+    }
+
     fn step(&mut self, view: &StepView<'_>) -> std::io::Result<Continue> {
-        let missed = view.residual > self.criterion;
-        self.marked += usize::from(view.flagged || view.held || missed);
-        self.negative = self.negative.max(view.negative_pivots.unwrap_or(0));
+        self.marked += usize::from(marked(view, self.criterion));
+        self.negative.push(view.negative_pivots);
         self.viscous = view.viscous;
-        self.iterations.push(view.iterations);
+        self.iterations.push(std::mem::take(&mut self.under_way));
         let at = self.from + self.sign * view.lambda;
         self.points.push([at, self.sign * view.load]);
         Ok(Continue::Yes)
@@ -53,6 +62,36 @@ impl Recorder for Driven {
 }
 
 impl Driven {
+    /// Nothing yet, to be held against a relative residual.
+    pub fn holding(criterion: f64) -> Self {
+        Self {
+            criterion,
+            ..Self::default()
+        }
+    }
+
+    /// Goes through a stage, and says whether it arrived.
+    pub fn lead(
+        &mut self,
+        control: &StepControl,
+        stage: &mut Stage<'_>,
+        driver: &mut dyn Driver,
+    ) -> bool {
+        let end = control.run(stage, driver, self);
+        let c = stage.counters();
+        let sum = &mut self.counters;
+        sum.steps += c.steps;
+        sum.iterations += c.iterations;
+        sum.cutbacks += c.cutbacks;
+        sum.factorisations += c.factorisations;
+        sum.force_evaluations += c.force_evaluations;
+        if let Err(error) = end {
+            self.stopped = Some(error.to_string());
+            self.iterations.push(self.under_way);
+        }
+        self.stopped.is_none()
+    }
+
     /// Largest load (N).
     pub fn peak(&self) -> f64 {
         self.points.iter().map(|p| p[1]).fold(0.0, f64::max)
@@ -87,6 +126,12 @@ impl Driven {
         falls.fold(0.0, f64::max)
     }
 
+    /// Largest number of negative pivots, if they were counted at every step.
+    pub fn most_negative(&self) -> Option<usize> {
+        let counted: Option<Vec<usize>> = self.negative.iter().copied().collect();
+        counted?.into_iter().max()
+    }
+
     /// Iterations that `share` of all steps do not exceed.
     pub fn iterations_within(&self, share: f64) -> usize {
         let mut sorted = self.iterations.clone();
@@ -114,10 +159,7 @@ pub fn drive(
 ) -> Result<Driven, SolverError> {
     let mut state = StateStore::new(model.elements());
     let mut u = vec![0.0; model.dofs().len()];
-    let mut driven = Driven {
-        criterion,
-        ..Driven::default()
-    };
+    let mut driven = Driven::holding(criterion);
     for leg in legs {
         let way = leg.to - driven.from;
         driven.sign = way.signum();
@@ -132,17 +174,9 @@ pub fn drive(
             ..StepControl::new(leg.step, way.abs())
         };
         let mut stage = Stage::new(model, turned, &mut state, u.clone())?;
-        let end = control.run(&mut stage, driver, &mut driven);
-        let c = stage.counters();
-        let sum = &mut driven.counters;
-        sum.steps += c.steps;
-        sum.iterations += c.iterations;
-        sum.cutbacks += c.cutbacks;
-        sum.factorisations += c.factorisations;
-        sum.force_evaluations += c.force_evaluations;
+        let arrived = driven.lead(&control, &mut stage, driver);
         u = stage.displacement().to_vec();
-        if let Err(error) = end {
-            driven.stopped = Some(error.to_string());
+        if !arrived {
             break;
         }
         driven.from = leg.to;

@@ -31,10 +31,17 @@ pub struct Path {
     pub critical: Vec<(Critical, f64)>,
     /// Why it did not arrive.
     pub stopped: Option<String>,
-    /// Steps that jumped, or missed the criterion.
+    /// Steps that are [`marked`].
     pub marked: usize,
     /// Work done.
     pub counters: Counters,
+    /// Relative residual that a step is to meet.
+    criterion: f64,
+}
+
+/// Whether a step jumped, or missed the criterion.
+pub fn marked(view: &StepView<'_>, criterion: f64) -> bool {
+    view.flagged || view.held || view.residual > criterion
 }
 
 impl Recorder for Path {
@@ -48,7 +55,7 @@ impl Recorder for Path {
             let before = self.points.last().map_or(0.0, |p| p[0]);
             self.critical.push((critical, before));
         }
-        self.marked += usize::from(view.flagged || view.held);
+        self.marked += usize::from(marked(view, self.criterion));
         let u = view.stage.displacement();
         let along: f64 = self.forces.0.iter().zip(u).map(|(f, u)| f * u).sum();
         let force = view.lambda * self.forces.1;
@@ -110,11 +117,13 @@ pub fn follow(
         stopped: None,
         marked: 0,
         counters: Counters::default(),
+        criterion: f64::INFINITY,
     };
     let mut state = StateStore::new(model.elements());
     let virgin = vec![0.0; model.dofs().len()];
     let mut stage = Stage::new(model, conditions, &mut state, virgin)?;
     for (control, mut driver) in legs {
+        path.criterion = control.criterion;
         if let Err(error) = control.run(&mut stage, driver.as_mut(), &mut path) {
             path.stopped = Some(error.to_string());
         }

@@ -47,8 +47,17 @@ fn concrete(strength: f64) -> FixedCrack {
 ///
 /// For a length that is not positive.
 pub fn bar(length: f64, n: usize) -> (Model, Conditions) {
+    banded(length, n, length / n as f64)
+}
+
+/// The same of which the law takes the crack band for `band` (mm) wide, whatever the cell.
+///
+/// # Panics
+///
+/// For a length that is not positive.
+pub fn banded(length: f64, n: usize, band: f64) -> (Model, Conditions) {
     let strengths: Vec<_> = (0..n).map(|i| (i == 0).then_some(STRENGTH)).collect();
-    let model = cracking(length, &strengths);
+    let model = cracking(length, &strengths, band);
     let mut conditions = held(&model);
     push_faces(
         &model,
@@ -67,7 +76,7 @@ pub fn bar(length: f64, n: usize) -> (Model, Conditions) {
 /// For a length that is not positive.
 pub fn moved(length: f64, strengths: &[f64]) -> (Model, Conditions) {
     let strengths: Vec<_> = strengths.iter().map(|s| Some(*s)).collect();
-    let model = cracking(length, &strengths);
+    let model = cracking(length, &strengths, length / strengths.len() as f64);
     let mut conditions = held(&model);
     for node in nodes_where(model.mesh(), |x| x[0] == length) {
         conditions
@@ -77,11 +86,10 @@ pub fn moved(length: f64, strengths: &[f64]) -> (Model, Conditions) {
     (model, conditions)
 }
 
-/// Cells along x, elastic where there is no strength.
-fn cracking(length: f64, strengths: &[Option<f64>]) -> Model {
+/// Cells along x with crack bands of a width (mm), elastic where there is no strength.
+fn cracking(length: f64, strengths: &[Option<f64>], width: f64) -> Model {
     let n = strengths.len();
     let mesh = boxes(&lines(0.0, length, n), &[0.0, 10.0], &[0.0, 10.0]).expect("a bar");
-    let width = length / n as f64;
     let mut elements: Vec<Box<dyn Element>> = Vec::new();
     for ((nodes, coords), strength) in cells(&mesh, &mesh.blocks()[0]).zip(strengths) {
         let law: Arc<dyn Material<Solid>> = match strength {

@@ -206,6 +206,58 @@ fn shared_faces_and_edges_count_once() {
     }
 }
 
+/// EL-10, a bar on a plane of symmetry: the model of one half takes half of its area. Targets: under a field that the plane
+/// mirrors, half of the work of the whole, and half of E A eps at the end; nothing is halved by itself.
+#[test]
+fn a_plane_of_symmetry_halves_the_bar() {
+    let (x, y, low) = ([0.0, 40.0, 100.0], [0.0, 50.0], [0.0, 30.0]);
+    let half = boxes(&x, &y, &low).unwrap();
+    let whole = boxes(&x, &y, &[0.0, 30.0, 60.0]).unwrap();
+    let embedded = |mesh: &Mesh, area_mm2: f64| {
+        let bar = Bar {
+            name: "on the plane".into(),
+            polyline: vec![[0.0, 20.0, 30.0], [100.0, 20.0, 30.0]],
+            area_mm2,
+            law: Arc::new(Elastic::new(YOUNG, 0.0).unwrap()),
+            dowel: None,
+        };
+        embed(&[bar], mesh, &[BLOCK]).unwrap()
+    };
+    // The field of the half, mirrored: z turns its sign, and is zero on the plane.
+    let field = |mesh: &Mesh, seed: usize| -> Vec<Vector3<f64>> {
+        let of_half = irregular(&half, seed);
+        let mirrored = |x: &[f64; 3]| {
+            let side = if x[2] > 30.0 { -1.0 } else { 1.0 };
+            let place = [x[0], x[1], x[2].min(60.0 - x[2])];
+            let node = half.nodes().iter().position(|y| *y == place).unwrap();
+            let z = if x[2] == 30.0 { 0.0 } else { side };
+            of_half[node].component_mul(&Vector3::new(1.0, 1.0, z))
+        };
+        mesh.nodes().iter().map(mirrored).collect()
+    };
+    let work_of = |mesh: &Mesh, area: f64| {
+        let bars = embedded(mesh, area);
+        work(&forces(mesh, &bars, &field(mesh, 5)), &field(mesh, 6))
+    };
+    let (of_whole, of_half) = (work_of(&whole, AREA), work_of(&half, 0.5 * AREA));
+    assert!(
+        (of_half / of_whole - 0.5).abs() < 1e-12,
+        "{of_half} {of_whole}"
+    );
+    let stretch: Vec<Vector3<f64>> = half
+        .nodes()
+        .iter()
+        .map(|x| Vector3::new(1e-3 * x[0], 0.0, 0.0))
+        .collect();
+    let f = forces(&half, &embedded(&half, 0.5 * AREA), &stretch);
+    let at_end = f.iter().zip(half.nodes()).filter(|(_, x)| x[0] == 100.0);
+    let end: f64 = at_end.map(|(f, _)| f.x).sum();
+    assert!(
+        (end / (0.5 * YOUNG * AREA * 1e-3) - 1.0).abs() < 1e-12,
+        "{end}"
+    );
+}
+
 /// EL-09c, a bar that slips in a straight host, its nodes displaced as the host is at their place: the virtual work is that of
 /// the bar with perfect bond, with a dowel that slides and with one end held. Target: rounding.
 #[test]

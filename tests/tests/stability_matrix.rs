@@ -28,6 +28,20 @@ fn the_automatic_driver_arrives_everywhere() {
     }
 }
 
+/// STAB-25: viscosity tells what it swallows, and may not swallow much. Targets: 2 % of the work at most, and some; the peak the
+/// same within 1 % when it is halved, in short steps. (In usual steps the share is 1.2 % and the peak changes by 1.0 %; in long
+/// ones they are 2.2 %, and 1.0 %. At no length is the bar drawn apart: the tangent becomes singular, and the driver says so.)
+#[test]
+fn viscosity_is_told() {
+    let scenario = SCENARIOS.iter().find(|s| s.id == "STAB-25").unwrap();
+    let case = case(scenario, Method::Viscous, 0.5).expect("applies");
+    for name in ["viscous share of the work", "peak with half of the viscosity, N"] {
+        let figure = case.figures.iter().find(|f| f.name == name);
+        assert!(figure.is_some_and(|f| f.holds()), "{name}: {figure:?}");
+    }
+    assert_eq!(case.outcome(), Outcome::Stopped);
+}
+
 /// Load control cannot pass a limit point: it is to stop at the peak and to say so.
 #[test]
 fn load_control_stops_and_says_so() {

@@ -29,15 +29,29 @@ the beams did.
 /// Name of a scenario, with the outcome by every method that applies.
 type Row = (String, Vec<Option<Outcome>>);
 
+/// Six digits of a number, or a dash where there is none.
+fn number(value: f64) -> String {
+    if !value.is_finite() {
+        return "-".into();
+    }
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    let size = rounded.abs();
+    if size != 0.0 && !(1e-4..1e7).contains(&size) {
+        format!("{rounded:e}")
+    } else {
+        rounded.to_string()
+    }
+}
+
 fn figure(figure: &Figure) -> String {
     let target = match figure.target {
         Target::Near(value, relative) => {
-            format!("{} +- {} %", (1e6 * value).round() / 1e6, 100.0 * relative)
+            format!("{} +- {} %", number(value), number(100.0 * relative))
         }
-        Target::AtMost(bound) => format!("at most {bound}"),
-        Target::AtLeast(bound) => format!("at least {bound}"),
+        Target::AtMost(bound) => format!("at most {}", number(bound)),
+        Target::AtLeast(bound) => format!("at least {}", number(bound)),
     };
-    format!("{} {:.5} ({target})", figure.name, figure.found)
+    format!("{} {} ({target})", figure.name, number(figure.found))
 }
 
 /// A row of outcomes and a table of figures of one scene.

@@ -29,7 +29,7 @@ pub use stab24_long_bar::{LONG, LONGER};
 use super::Scenario;
 
 /// All of them.
-pub const SCENARIOS: [Scenario; 25] = [
+pub const SCENARIOS: [Scenario; 26] = [
     stab01_strip::SCENARIO,
     stab05_crack_event::SCENARIO,
     stab06_many_steps::SCENARIO,
@@ -43,6 +43,7 @@ pub const SCENARIOS: [Scenario; 25] = [
     stab12_shear_retention::SCENARIO,
     stab13_return_mapping::SCENARIO,
     stab14_closing_crack::SCENARIO,
+    stab14_closing_crack::SHEARED,
     stab15_hourglass::SCENARIO,
     stab16_coarse_bond::SCENARIO,
     stab17_conditioning::SCENARIO,

@@ -1,8 +1,17 @@
-//! STAB-05: a bar of ten cells, one 5 % weaker, drawn through its peak in ten steps.
+//! STAB-05: a bar of ten cells, one 5 % weaker, drawn through its peak in steps of at most 0.01 mm.
+//!
+//! Target of the catalogue: 14 iterations in ten steps, none cut back. Not met by the automatic driver, which shortens steps in
+//! which histories take away more than 2 % of the load, so as to step over no peak (STAB-07): ten steps become some 400, with
+//! 155 cutbacks and 610 iterations, 1.5 a step with those of steps cut back, where plain Newton-Raphson took 3165 and 64 cutbacks. The secant driver
+//! alone takes 39 in ten steps without cutback, and misses the peak by 12 %. Bounds, 10 % above what is reached: 450 steps, 170
+//! cutbacks, 690 iterations.
 
 use crate::driven::{Driven, Leg, drive};
 use crate::softening_bar::{AREA, ENERGY, STRENGTH, moved};
 use crate::stability::{COARSE, Case, Failure, Figure, Method, Scenario};
+
+/// Length of a cell (mm).
+const CELL: f64 = 50.0;
 
 /// Strengths of the cells (MPa).
 pub(super) fn weak_cell() -> [f64; 10] {
@@ -11,14 +20,14 @@ pub(super) fn weak_cell() -> [f64; 10] {
     strengths
 }
 
-/// The bar of 500 mm drawn to 0.1 mm by a method in steps of `step` (mm); none where it does not apply.
+/// A bar of cells of 50 mm, drawn to 0.1 mm by a method in steps of `step` (mm); none where it does not apply.
 pub(super) fn draw(
     method: Method,
     step: f64,
     strengths: &[f64],
 ) -> Option<Result<Driven, Failure>> {
     let mut driver = method.imposing(step)?;
-    let (model, conditions) = moved(500.0, strengths);
+    let (model, conditions) = moved(CELL * strengths.len() as f64, strengths);
     let leg = Leg { to: 0.1, step };
     let driven = drive(&model, &conditions, &[leg], 1e-4, driver.as_mut());
     Some(driven.map_err(Failure::from))
@@ -46,7 +55,11 @@ pub const SCENARIO: Scenario = Scenario {
         Some(draw(method, 0.01 * coarse, &weak_cell())?.map(|driven| {
             let mut figures = figures(&driven);
             let iterations = driven.counters.iterations as f64;
-            figures.push(Figure::at_most("iterations", iterations, 1000.0));
+            let cutbacks = driven.counters.cutbacks as f64;
+            let steps = driven.counters.steps as f64;
+            figures.push(Figure::at_most("iterations", iterations, 690.0));
+            figures.push(Figure::at_most("cutbacks", cutbacks, 170.0));
+            figures.push(Figure::at_most("steps", steps, 450.0));
             Case::driven(driven, figures)
         }))
     },

@@ -1,4 +1,5 @@
-//! STAB-06: the same bar in short steps: none may take many iterations.
+//! STAB-06: the same bar in short steps: none may take many iterations, those of attempts that were
+//! given up among them.
 
 use super::stab05_crack_event::{draw, figures, weak_cell};
 use crate::stability::{COARSE, Case, Figure, Scenario};

@@ -7,7 +7,12 @@ use crate::stability::{COARSE, Figure, Scenario, Scene, Steps};
 /// The dissipation of a bar is GF A less its share still to come.
 fn figures(path: &Path) -> Vec<Figure> {
     let left = path.points.last().map_or(1.0, |p| p[0]) / path.peak();
-    let dissipated = path.dissipated() / (1.0 - left);
+    // A path that stops at its peak says nothing of it.
+    let dissipated = if left < 0.99 {
+        path.dissipated() / (1.0 - left)
+    } else {
+        f64::NAN
+    };
     vec![
         Figure::near("peak, N", path.peak(), STRENGTH * AREA, 5e-3),
         Figure::near("dissipation, N mm", dissipated, ENERGY * AREA, 1e-2),

@@ -13,9 +13,11 @@ fn run(method: Method, coarse: f64) -> Option<Result<Case, Failure>> {
     let driven = draw(method, step, &weak_cell())?;
     Some(driven.and_then(|driven| {
         let mut figures = figures(&driven);
-        let share = driven.viscous.unwrap_or(0.0);
-        figures.push(Figure::at_most("viscous share of the work", share, 0.02));
+        // A method that is not viscous tells of none; one that is has to tell.
         if method == Method::Viscous {
+            let share = driven.viscous.filter(|share| *share > 0.0);
+            let share = share.unwrap_or(f64::NAN);
+            figures.push(Figure::at_most("viscous share of the work", share, 0.02));
             let mut half = Viscous::new(0.025 * step, NewtonSettings::default())?;
             let (model, conditions) = moved(500.0, &weak_cell());
             let leg = Leg { to: 0.1, step };
