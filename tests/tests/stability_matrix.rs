@@ -35,7 +35,10 @@ fn the_automatic_driver_arrives_everywhere() {
 fn viscosity_is_told() {
     let scenario = SCENARIOS.iter().find(|s| s.id == "STAB-25").unwrap();
     let case = case(scenario, Method::Viscous, 0.5).expect("applies");
-    for name in ["viscous share of the work", "peak with half of the viscosity, N"] {
+    for name in [
+        "viscous share of the work",
+        "peak with half of the viscosity, N",
+    ] {
         let figure = case.figures.iter().find(|f| f.name == name);
         assert!(figure.is_some_and(|f| f.holds()), "{name}: {figure:?}");
     }

@@ -24,19 +24,11 @@ pub(super) const BAND: f64 = 50.0;
 
 /// The concrete of the scenario.
 pub(super) fn concrete(shear_transfer: ShearTransfer) -> Result<FixedCrack, Failure> {
-    of_strength(FT, shear_transfer)
-}
-
-/// The same of another tensile strength (MPa).
-pub(super) fn of_strength(
-    ft: f64,
-    shear_transfer: ShearTransfer,
-) -> Result<FixedCrack, Failure> {
     let parameters = FixedCrackParameters {
         fracture_energy: 0.5 * 3e-3 * BAND,
         tension_softening: TensionSoftening::Linear,
         shear_transfer,
-        ..FixedCrackParameters::from_strength(15.0, ft, 10_000.0)
+        ..FixedCrackParameters::from_strength(15.0, FT, 10_000.0)
     };
     Ok(FixedCrack::new(parameters, None)?)
 }
@@ -110,7 +102,11 @@ fn case(point: Result<Point, Failure>) -> Result<Case, Failure> {
         marked: usize::from(locked),
         ..Case::checked(vec![
             Figure::at_most("largest principal stress, MPa", largest, 1.05),
-            Figure::at_most("largest size of a principal stress at the end, MPa", end, 0.05),
+            Figure::at_most(
+                "largest size of a principal stress at the end, MPa",
+                end,
+                0.05,
+            ),
         ])
     })
 }

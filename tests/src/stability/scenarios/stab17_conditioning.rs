@@ -49,7 +49,13 @@ fn bonded(stiffness: f64) -> Result<(Model, Conditions), Failure> {
         let sheet = face.map(above);
         let pair = std::array::from_fn(|a| if a < 8 { face[a] } else { sheet[a - 8] });
         let rule = InterfaceRule::Gauss3;
-        elements.push(Box::new(Interface16::new(pair, &coords, x, rule, bond.clone())?));
+        elements.push(Box::new(Interface16::new(
+            pair,
+            &coords,
+            x,
+            rule,
+            bond.clone(),
+        )?));
         elements.push(Box::new(Membrane8::new(
             sheet,
             &coords,
@@ -61,7 +67,9 @@ fn bonded(stiffness: f64) -> Result<(Model, Conditions), Failure> {
     }
     let model = Model::new(mesh, elements)?;
     let mut conditions = Conditions::new(&model);
-    hold(&model, &mut conditions, &Dof::DISPLACEMENTS, |x| x[2] == 0.0)?;
+    hold(&model, &mut conditions, &Dof::DISPLACEMENTS, |x| {
+        x[2] == 0.0
+    })?;
     Ok((model, conditions))
 }
 
@@ -98,7 +106,12 @@ fn figures() -> Result<Vec<Figure>, Failure> {
         return Err("no condition".into());
     };
     figures.push(Figure::near("condition at 76.9 MPa/mm", bond, 142.8, 0.01));
-    figures.push(Figure::near("condition at 1e6 MPa/mm", penalty, 1.843e5, 0.01));
+    figures.push(Figure::near(
+        "condition at 1e6 MPa/mm",
+        penalty,
+        1.843e5,
+        0.01,
+    ));
     Ok(figures)
 }
 

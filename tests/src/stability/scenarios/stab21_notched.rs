@@ -19,11 +19,7 @@ fn figures(path: &Path) -> Vec<Figure> {
         .unwrap_or(f64::NAN);
     vec![
         Figure::near("turning point, mm", least(falling), 1.499, 6e-3),
-        Figure::at_most(
-            "largest distance from beam theory",
-            worst,
-            0.012,
-        ),
+        Figure::at_most("largest distance from beam theory", worst, 0.012),
     ]
 }
 

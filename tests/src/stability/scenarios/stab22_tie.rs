@@ -1,5 +1,14 @@
-//! STAB-22: reinforced tie of 1000 mm, 100 mm x 100 mm, one ribbed bar of 16 mm that slips, drawn by its bar to a strain of
-//! 1e-3: it cracks step by step, and the number of cracks does not depend on the cells.
+//! STAB-22: reinforced tie of 1000 mm, 100 mm x 100 mm, one ribbed bar of 16 mm that slips: it cracks step by step, and the
+//! number of cracks does not depend on the cells.
+//!
+//! Targets: no step opens more than one crack, and as many are open at the end in 40 cells as in 20. The bar is drawn by its end,
+//! by 1 mm, and, as the catalogue asks, under load control, to 60 kN; where bond is perfect and no place is weaker all cracks
+//! come at once there (STR-05). Under load control every crack is a snap at a held force, which the secant driver passes and
+//! marks; Newton-Raphson stops at the first and says so.
+//!
+//! Not reached: the automatic driver under a force, which follows the path instead of jumping, comes to 60 kN with five cracks in
+//! 20 cells, but in 40 cells loses it behind the second crack, where several places unload and reload, from 27.4 kN to -0.2 kN in one step of
+//! dissipation control, and says nothing. It is not part of the matrix.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -84,11 +93,11 @@ fn tie(n: usize) -> Result<(Model, Vec<NodeId>), Failure> {
 }
 
 /// How the end of the bar is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 enum Drawn {
-    /// By 1e-3 of the length.
+    /// By 1 mm.
     Moved,
-    /// By the force of that strain in the bar.
+    /// By 60 kN.
     Pulled,
 }
 
@@ -100,7 +109,6 @@ struct Watch {
     marked: usize,
     counters: Counters,
     stopped: Option<String>,
-    stop: f64,
 }
 
 impl Watch {
@@ -137,9 +145,6 @@ impl Recorder for Watch {
         }
         let starts = open.windows(2).filter(|w| !w[0] && w[1]).count();
         self.cracks.push(starts);
-        let k = self.cracks.len();
-        if k > 1 && self.cracks[k - 1] != self.cracks[k - 2] { println!("{k} {:?} {}", self.cracks.last(), view.lambda); }
-        if view.lambda > self.stop { return Ok(Continue::Stop("there".into())); }
         Ok(Continue::Yes)
     }
 }
@@ -147,8 +152,8 @@ impl Recorder for Watch {
 /// A tie of `n` cells, drawn by a method.
 fn cracks(method: Method, n: usize, drawn: Drawn) -> Option<Result<Watch, Failure>> {
     let (step, end) = match drawn {
-        Drawn::Moved => (0.01, 1e-3 * LENGTH),
-        Drawn::Pulled => (if method == Method::Automatic { 0.01 } else { 500.0 }, 1e9),
+        Drawn::Moved => (0.01, 1.0),
+        Drawn::Pulled => (500.0, 60_000.0),
     };
     let mut driver = method.imposing(step)?;
     let mut watch = || -> Result<Watch, Failure> {
@@ -180,7 +185,6 @@ fn cracks(method: Method, n: usize, drawn: Drawn) -> Option<Result<Watch, Failur
             marked: 0,
             counters: Counters::default(),
             stopped: None,
-            stop: if drawn == Drawn::Pulled { 200_000.0 * AREA * 1.5e-3 } else { 1e9 },
         };
         let end = control.run(&mut stage, driver.as_mut(), &mut watch);
         watch.stopped = end.err().map(|error| error.to_string());
@@ -189,33 +193,44 @@ fn cracks(method: Method, n: usize, drawn: Drawn) -> Option<Result<Watch, Failur
     Some(watch())
 }
 
+/// Cracks in 20 and 40 cells, at the end and in one step.
+fn figures(by: &str, [coarse, fine]: [&Watch; 2]) -> [Figure; 3] {
+    let [few, many] = [coarse, fine].map(|watch| watch.last() as f64);
+    let at_once = coarse.at_once().max(fine.at_once()) as f64;
+    [
+        Figure::at_least(format!("cracks, 20 cells, {by}"), few, 2.0),
+        Figure::near(format!("cracks, 40 cells, {by}"), many, few, 0.0),
+        Figure::at_most(format!("cracks that open in one step, {by}"), at_once, 1.0),
+    ]
+}
+
 fn run(method: Method) -> Option<Result<Case, Failure>> {
-    for m in [Method::SecantLoad, Method::Automatic] {
-        for n in [20, 40] {
-            println!("--- {m:?} {n}");
-            let w = cracks(m, n, Drawn::Pulled)?.unwrap();
-            println!("{} {} {} {:?} {:?}", w.last(), w.at_once(), w.marked, w.counters, w.stopped);
+    let moved = [20, 40].map(|n| cracks(method, n, Drawn::Moved));
+    let [Some(coarse), Some(fine)] = moved else {
+        return None;
+    };
+    let case = || -> Result<Case, Failure> {
+        let (coarse, fine) = (coarse?, fine?);
+        let mut figures_of_all = Vec::from(figures("moved", [&coarse, &fine]));
+        let mut stopped = coarse.stopped.or(fine.stopped);
+        if method == Method::Automatic {
+            let pulled = [20, 40].map(|n| cracks(Method::SecantLoad, n, Drawn::Pulled));
+            let [Some(coarse), Some(fine)] = pulled else {
+                return Err("no driver under a force".into());
+            };
+            let (coarse, fine) = (coarse?, fine?);
+            let by = "pulled, secant driver";
+            figures_of_all.extend(figures(by, [&coarse, &fine]));
+            stopped = stopped.or(coarse.stopped).or(fine.stopped);
         }
-    }
-    std::process::exit(0);
-    #[allow(unreachable_code)]
-    let coarse = cracks(method, 20, Drawn::Moved)?;
-    let fine = cracks(method, 40, Drawn::Moved)?;
-    Some(coarse.and_then(|coarse| {
-        let fine = fine?;
-        let [few, many] = [&coarse, &fine].map(|w| w.last() as f64);
-        let at_once = coarse.at_once().max(fine.at_once()) as f64;
         Ok(Case {
-            figures: vec![
-                Figure::at_least("cracks, 20 cells", few, 2.0),
-                Figure::near("cracks, 40 cells", many, few, 0.0),
-                Figure::at_most("cracks that open in one step", at_once, 1.0),
-            ],
-            stopped: coarse.stopped.or(fine.stopped),
+            figures: figures_of_all,
+            stopped,
             marked: coarse.marked + fine.marked,
             counters: fine.counters,
         })
-    }))
+    };
+    Some(case())
 }
 
 /// The scenario.

@@ -13,9 +13,7 @@
 
 use std::sync::Arc;
 
-use fe_contact::{
-    Interface, Interface16, InterfaceRule, MixedMode, MixedModeParameters,
-};
+use fe_contact::{Interface, Interface16, InterfaceRule, MixedMode, MixedModeParameters};
 use fe_core::dof::Dof;
 use fe_core::element::Element;
 use fe_core::material::Material;
@@ -168,7 +166,12 @@ fn figures() -> Result<Vec<Figure>, Failure> {
             STRENGTH,
         ));
         // Points of Lobatto's rule lie where contact ends, a row of them twice.
-        figures.push(Figure::near(name("points closed"), aside.closed, 0.75, 0.06));
+        figures.push(Figure::near(
+            name("points closed"),
+            aside.closed,
+            0.75,
+            0.06,
+        ));
         figures.push(Figure::near(
             name("largest pressure, MPa"),
             -aside.range[0],
