@@ -1,7 +1,7 @@
 //! Protects the promise of the automatic driver: in no scenario of the stability matrix is it wrong and silent, and in all
 //! but those named here it arrives. The whole matrix is `docs/stability.md`.
 
-use fe_tests::stability::{Case, Method, Outcome, SCENARIOS, Scenario};
+use fe_tests::stability::{Case, Figure, Method, Outcome, SCENARIOS, Scenario};
 
 fn case(scenario: &Scenario, method: Method, coarse: f64) -> Option<Case> {
     let case = (scenario.run)(method, coarse)?;
@@ -40,7 +40,7 @@ fn viscosity_is_told() {
         "peak with half of the viscosity, N",
     ] {
         let figure = case.figures.iter().find(|f| f.name == name);
-        assert!(figure.is_some_and(|f| f.holds()), "{name}: {figure:?}");
+        assert!(figure.is_some_and(Figure::holds), "{name}: {figure:?}");
     }
     assert_eq!(case.outcome(), Outcome::Stopped);
 }

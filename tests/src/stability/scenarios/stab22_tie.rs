@@ -7,8 +7,8 @@
 //! marks; Newton-Raphson stops at the first and says so.
 //!
 //! Not reached: the automatic driver under a force, which follows the path instead of jumping, comes to 60 kN with five cracks in
-//! 20 cells, but in 40 cells loses it behind the second crack, where several places unload and reload, from 27.4 kN to -0.2 kN in one step of
-//! dissipation control, and says nothing. It is not part of the matrix.
+//! 20 cells, but in 40 cells loses it behind the second crack: one step of dissipation control goes from 27.4 kN to -0.2 kN, and
+//! nothing is said. That run is no part of the matrix.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
