@@ -183,3 +183,30 @@ pub fn drive(
     }
     Ok(driven)
 }
+
+#[cfg(test)]
+mod tests {
+    //! Protects the count of iterations from leaving out attempts that were given up.
+    use fe_solver::automatic::Automatic;
+    use fe_solver::newton::NewtonSettings;
+
+    use super::*;
+    use crate::softening_bar::moved;
+
+    #[test]
+    fn iterations_of_attempts_given_up_count() {
+        let (model, conditions) = moved(300.0, &[2.5, 2.2, 2.5]);
+        let leg = Leg {
+            to: 0.05,
+            step: 0.01,
+        };
+        let mut driver = Automatic::new(NewtonSettings::default());
+        let driven = drive(&model, &conditions, &[leg], 1e-4, &mut driver).unwrap();
+        assert!(driven.counters.cutbacks > 0);
+        assert_eq!(driven.iterations.len(), driven.points.len());
+        assert_eq!(
+            driven.iterations.iter().sum::<usize>(),
+            driven.counters.iterations
+        );
+    }
+}
