@@ -190,7 +190,7 @@ fn figures() -> Result<Vec<Figure>, Failure> {
 /// The scenario.
 pub const SCENARIO: Scenario = Scenario {
     id: "STAB-23",
-    title: "unilateral bearing: no point lifts under a uniform pressure, only those that must under half of it",
+    title: "unilateral bearing: lifts under half a pressure, not under a uniform one",
     coarse: &[],
     run: |method, _| (method == Method::Automatic).then(|| figures().map(Case::checked)),
 };
