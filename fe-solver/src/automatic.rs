@@ -25,6 +25,12 @@ const PACE: (f64, f64) = (0.7, 1.3);
 /// load so far: more would hide a peak between two steps.
 const EVENT: f64 = 0.02;
 
+/// Share of its load that a step loses, and its reach over its length, if it has left the path: a body that unloads and dissipates a
+/// little on the way back to the origin meets dissipation control as well.
+const LOST: f64 = 0.2;
+/// See [`LOST`].
+const ASTRAY: f64 = 8.0;
+
 /// What is controlled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Control {
@@ -47,7 +53,8 @@ enum Control {
 /// [mode](Mode) that wants to grow, and its amplitude is controlled. Where one control fails the others are tried before the
 /// step is cut.
 ///
-/// A step that unloads elastically was not asked for and is refused, however well it converged. Every change is
+/// A step that unloads elastically, or that loses a fifth of the load and reaches eight times as far as it was to, was not asked
+/// for and is refused, however well it converged. Every change is
 /// noted with its reason.
 ///
 /// Where displacements are imposed and no force grows, steps are solved by [`SecantAnderson`], which passes snaps at held
@@ -184,6 +191,10 @@ impl Automatic {
         let energies = Energies::to(stage, &attempt.displacement, attempt.lambda)?;
         let falls = attempt.lambda.abs() < stage.lambda().abs();
         attempt.converged &= !(falls && energies.dissipated < ELASTIC * energies.work.abs());
+        let du = attempt.displacement.iter().zip(stage.displacement());
+        let reach = du.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let lost = stage.lambda().abs() - attempt.lambda.abs() > LOST * stage.lambda().abs();
+        attempt.converged &= !(lost && reach > ASTRAY * request.length);
         Ok(attempt)
     }
 

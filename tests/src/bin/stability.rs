@@ -23,9 +23,6 @@ strength of the faces of a narrow crack, still brings 1.25 times it for the weak
 `tension_over_strength` in `summary.json`, and limited trust above 1.2. The law `objective`, whose cracks rotate for good, is free of it, \
 but does not fail in shear where \
 the beams did.
-- **STAB-22, the automatic driver under a force.** Followed along its path, the tie of 40 cells is lost behind its second crack: one step of \
-dissipation control goes from 27.4 kN to -0.2 kN in equilibrium, and is not marked. The scenario is run under an imposed displacement and, by the secant \
-driver, under load control.
 - **STAB-14, lateral contraction.** The law fixed-crack drops Poisson's ratio at the onset of a crack; with 0.2 one step of the sheared cells \
 would create 0.1 N mm, and the run stops and says so. The scenario has none.
 
