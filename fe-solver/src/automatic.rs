@@ -172,20 +172,24 @@ impl Automatic {
         let mut attempt = match driver.attempt(stage, scaled, log) {
             Ok(attempt) => attempt,
             // More was asked for than there is left: what has failed is loose.
-            Err(SolverError::Singular { .. }) if !request.last_resort => Attempt {
-                displacement: stage.displacement().to_vec(),
-                lambda: stage.lambda(),
-                converged: false,
-                residual: Residual {
-                    relative: f64::INFINITY,
-                    largest: f64::INFINITY,
-                    worst: 0,
-                },
-                iterations: 0,
-                held: false,
-                means: None,
-                lag: None,
-            },
+            Err(SolverError::Singular { .. } | SolverError::Setting { .. })
+                if !request.last_resort =>
+            {
+                Attempt {
+                    displacement: stage.displacement().to_vec(),
+                    lambda: stage.lambda(),
+                    converged: false,
+                    residual: Residual {
+                        relative: f64::INFINITY,
+                        largest: f64::INFINITY,
+                        worst: 0,
+                    },
+                    iterations: 0,
+                    held: false,
+                    means: None,
+                    lag: None,
+                }
+            }
             Err(e) => return Err(e),
         };
         let energies = Energies::to(stage, &attempt.displacement, attempt.lambda)?;

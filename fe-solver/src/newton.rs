@@ -144,8 +144,15 @@ impl Driver for NewtonRaphson {
             let directions = [correction.as_slice(), reference.as_slice()];
             self.constraint.observe(stage, (&du, advance), directions)?;
             let border = self.constraint.linearise(&du, advance, &mut gradient);
-            let dlambda = -(border.value + dot(&gradient, &correction))
-                / (border.slope + dot(&gradient, &reference));
+            let response = border.slope + dot(&gradient, &reference);
+            if iterations == 0 && (response == 0.0 || !response.is_finite()) {
+                return Err(SolverError::Setting {
+                    what: "change of what the path constraint controls under the load",
+                    value: response,
+                    allowed: "other numbers than 0: control what responds to the load",
+                });
+            }
+            let dlambda = -(border.value + dot(&gradient, &correction)) / response;
             for (c, q) in correction.iter_mut().zip(&reference) {
                 *c += dlambda * q;
             }
