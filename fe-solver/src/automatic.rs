@@ -25,8 +25,8 @@ const PACE: (f64, f64) = (0.7, 1.3);
 /// load so far: more would hide a peak between two steps.
 const EVENT: f64 = 0.02;
 
-/// Share of its load that a step loses, and its reach over its length, if it has left the path: a body that unloads and dissipates a
-/// little on the way back to the origin meets dissipation control as well.
+/// Share of its load that a step loses, and its reach over that of the step before, if it has left the path: a body that
+/// unloads, and dissipates a little on the way back to the origin, meets dissipation control as well.
 const LOST: f64 = 0.2;
 /// See [`LOST`].
 const ASTRAY: f64 = 8.0;
@@ -53,7 +53,7 @@ enum Control {
 /// [mode](Mode) that wants to grow, and its amplitude is controlled. Where one control fails the others are tried before the
 /// step is cut.
 ///
-/// A step that unloads elastically, or that loses a fifth of the load and reaches eight times as far as it was to, was not asked
+/// A step that unloads elastically, or that loses a fifth of the load and reaches eight times as far as the one before, was not asked
 /// for and is refused, however well it converged. Every change is
 /// noted with its reason.
 ///
@@ -172,34 +172,47 @@ impl Automatic {
         let mut attempt = match driver.attempt(stage, scaled, log) {
             Ok(attempt) => attempt,
             // More was asked for than there is left: what has failed is loose.
-            Err(SolverError::Singular { .. } | SolverError::Setting { .. })
-                if !request.last_resort =>
-            {
-                Attempt {
-                    displacement: stage.displacement().to_vec(),
-                    lambda: stage.lambda(),
-                    converged: false,
-                    residual: Residual {
-                        relative: f64::INFINITY,
-                        largest: f64::INFINITY,
-                        worst: 0,
-                    },
-                    iterations: 0,
-                    held: false,
-                    means: None,
-                    lag: None,
-                }
-            }
+            Err(SolverError::Singular { .. }) if !request.last_resort => Attempt {
+                displacement: stage.displacement().to_vec(),
+                lambda: stage.lambda(),
+                converged: false,
+                residual: Residual {
+                    relative: f64::INFINITY,
+                    largest: f64::INFINITY,
+                    worst: 0,
+                },
+                iterations: 0,
+                held: false,
+                means: None,
+                lag: None,
+            },
             Err(e) => return Err(e),
         };
         let energies = Energies::to(stage, &attempt.displacement, attempt.lambda)?;
         let falls = attempt.lambda.abs() < stage.lambda().abs();
         attempt.converged &= !(falls && energies.dissipated < ELASTIC * energies.work.abs());
-        let du = attempt.displacement.iter().zip(stage.displacement());
-        let reach = du.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        let lost = stage.lambda().abs() - attempt.lambda.abs() > LOST * stage.lambda().abs();
-        attempt.converged &= !(lost && reach > ASTRAY * request.length);
+        if attempt.converged && Self::is_astray(stage, &attempt, request.length) {
+            attempt.converged = false;
+            self.notes
+                .push("a step that led back towards the origin was refused".into());
+        }
         Ok(attempt)
+    }
+
+    /// Whether another control may do where one has failed so: also where what it controls does not respond.
+    fn may_go_on(error: &SolverError) -> bool {
+        error.is_recoverable() || matches!(error, SolverError::Setting { .. })
+    }
+
+    /// Whether an attempt has left the path, see [`LOST`].
+    fn is_astray(stage: &Stage<'_>, attempt: &Attempt, length: f64) -> bool {
+        let lost = stage.lambda().abs() - attempt.lambda.abs() > LOST * stage.lambda().abs();
+        let largest = |du: &mut dyn Iterator<Item = f64>| du.fold(0.0, |a: f64, d| a.max(d.abs()));
+        let du = attempt.displacement.iter().zip(stage.displacement());
+        let reach = largest(&mut du.map(|(a, b)| a - b));
+        let before = stage.previous();
+        let before = before.map_or(0.0, |(du, _)| largest(&mut du.iter().copied()));
+        lost && reach > ASTRAY * before.max(length)
     }
 
     /// A step under imposed displacements.
@@ -283,7 +296,7 @@ impl Driver for Automatic {
         let mut serves = result.as_ref().is_ok_and(|a| a.converged);
         let recoverable = match &result {
             Ok(_) => true,
-            Err(e) => e.is_recoverable(),
+            Err(e) => Self::may_go_on(e),
         };
         if !serves && recoverable {
             for (other, mode) in self.others(stage, result.as_ref().ok()) {
@@ -298,7 +311,7 @@ impl Driver for Automatic {
                         (result, serves) = (Ok(attempt), true);
                         break;
                     }
-                    Err(error) if !error.is_recoverable() => return Err(error),
+                    Err(error) if !Self::may_go_on(&error) => return Err(error),
                     Ok(_) | Err(_) => {}
                 }
                 if let Some(before) = kept {

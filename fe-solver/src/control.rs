@@ -534,7 +534,7 @@ mod tests {
             let control = StepControl {
                 cut,
                 shortest: 0.5,
-                ..StepControl::new(1.0, 4.0)
+                ..StepControl::new(1.0, 1.0)
             };
             let end = control.run(&mut stage, &mut Never(0), &mut Silent);
             assert!(

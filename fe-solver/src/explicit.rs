@@ -69,6 +69,8 @@ struct Motion {
 pub struct Explicit {
     settings: ExplicitSettings,
     motion: Motion,
+    /// Accepted steps of the stage at the last attempt; none where the motion has been recalled.
+    at: Option<usize>,
 }
 
 impl Explicit {
@@ -94,6 +96,7 @@ impl Explicit {
         Ok(Self {
             settings,
             motion: Motion::default(),
+            at: None,
         })
     }
 
@@ -159,10 +162,13 @@ impl Driver for Explicit {
     ) -> Result<Attempt, SolverError> {
         let s = self.settings;
         // A motion begins at rest, also where another driver has led to.
-        let begun = self.motion.mass.len() == stage.restrict(stage.displacement()).len();
-        if stage.counters().steps == 0 || !begun {
+        let steps = stage.counters().steps;
+        let goes_on = self.at.is_none_or(|at| steps == at || steps == at + 1);
+        let same = self.motion.mass.len() == stage.restrict(stage.displacement()).len();
+        if steps == 0 || !(goes_on && same) {
             self.motion = Self::start(stage)?;
         }
+        self.at = Some(steps);
         let mut motion = self.motion.clone();
         let period = TAU / (motion.omega * s.time_step);
         let full = 1.0 / (s.periods * period);
@@ -246,6 +252,7 @@ impl Driver for Explicit {
             return;
         };
         let (mass, velocity) = rest.split_at(rest.len() / 2);
+        self.at = None;
         self.motion = Motion {
             mass: mass.to_vec(),
             omega: *omega,

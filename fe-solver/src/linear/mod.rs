@@ -239,7 +239,6 @@ impl LinearSolver for DirectSolver {
     }
 
     fn factorize(&mut self, values: &MatrixValues) -> Result<Inertia, LinearError> {
-        (self.current, self.put_off) = (None, None);
         let (Some(analysis), Some(factor)) = (&self.analysis, &mut self.factor) else {
             return Err(LinearError::NotAnalysed);
         };
@@ -248,6 +247,7 @@ impl LinearSolver for DirectSolver {
         if !values.is_symmetric() {
             fits("upper entries", values.upper.len(), pattern.nnz())?;
         }
+        (self.current, self.put_off) = (None, None);
         self.values.clone_from(values);
         self.stats.factorised += 1;
         let diagonal = &pattern.col_ptr()[..pattern.len()];

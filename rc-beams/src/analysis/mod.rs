@@ -62,7 +62,7 @@ impl Stepping {
         StepControl {
             longest: (LONGEST * self.initial_mm).min(self.until_mm),
             longest_share: self.longest_share,
-            shortest: self.initial_mm / SHORTEST,
+            shortest: (self.initial_mm / SHORTEST).min(self.until_mm),
             criterion: self.criterion,
             desired: DESIRED,
             growth: GROWTH,

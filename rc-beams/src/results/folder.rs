@@ -53,7 +53,38 @@ impl Folder {
         for file in NOT_STARTED_ANEW {
             folder.remove(file)?;
         }
+        folder.remove_drafts()?;
+        folder.remove_fields()?;
         Ok(folder)
+    }
+
+    /// Removes what a run that was killed left half-written.
+    ///
+    /// # Errors
+    ///
+    /// [`ResultsError::Output`].
+    pub fn remove_drafts(&self) -> Result<(), ResultsError> {
+        self.sweep(|name| name.starts_with(DRAFT))
+    }
+
+    /// Removes fields, which are to be written anew.
+    ///
+    /// # Errors
+    ///
+    /// [`ResultsError::Output`].
+    pub fn remove_fields(&self) -> Result<(), ResultsError> {
+        self.sweep(|name| name.starts_with("fields_") && name.strip_suffix(".vtu").is_some())
+    }
+
+    fn sweep(&self, stale: fn(&str) -> bool) -> Result<(), ResultsError> {
+        for entry in fs::read_dir(&self.path).map_err(|e| self.error("", e))? {
+            let name = entry.map_err(|e| self.error("", e))?.file_name();
+            let name = name.to_string_lossy();
+            if stale(&name) {
+                self.remove(&name)?;
+            }
+        }
+        Ok(())
     }
 
     /// A folder that is there, with all that it holds; tries to write there.
@@ -70,17 +101,8 @@ impl Folder {
         })
     }
 
-    /// Claims the folder, and removes what a run that was killed left half-written, and fields, which the next run writes
-    /// once more.
     fn claimed(self) -> Result<Self, ResultsError> {
         let claim = Claim::on(&self.path).map_err(|e| self.error("", e))?;
-        for entry in fs::read_dir(&self.path).map_err(|e| self.error("", e))? {
-            let name = entry.map_err(|e| self.error("", e))?.file_name();
-            let name = name.to_string_lossy();
-            if name.starts_with(DRAFT) || name.starts_with("fields_") && name.ends_with(".vtu") {
-                self.remove(&name)?;
-            }
-        }
         Ok(Self {
             _claim: Some(Arc::new(claim)),
             ..self

@@ -21,7 +21,8 @@ pub struct Interrupt {
 }
 
 impl Interrupt {
-    /// Watches for Ctrl-C, SIGTERM and SIGHUP from now on; a SIGHUP that is ignored, as under `nohup`, stays so. The first
+    /// Watches for Ctrl-C, SIGTERM and SIGHUP from now on; a SIGHUP that is ignored, as under `nohup`, stays so
+    /// where the system tells (Linux). The first
     /// is noted, so that the run can end in order; the second ends the process at once. Only once per process.
     ///
     /// # Errors

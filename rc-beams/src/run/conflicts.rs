@@ -28,8 +28,10 @@ fn too_fine_a_band(options: &RunOptions, settings: &ModelSettings) -> Option<Str
 
 /// Ingredients of a law that is not taken.
 fn without_effect(options: &RunOptions, settings: &ModelSettings) -> Option<String> {
-    if settings.law != Law::FixedCrack {
-        let (flag, law) = (given(&options.cracks)?, name(&settings.law));
+    if settings.law != Law::FixedCrack
+        && let Some(flag) = given(&options.cracks)
+    {
+        let law = name(&settings.law);
         return Some(format!(
             "{flag} has no effect with --law {law}: leave it out, or take --law fixed-crack"
         ));

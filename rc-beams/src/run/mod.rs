@@ -202,18 +202,12 @@ fn run(
     let kept = kept(&stop_reason, exit, &folder);
     let capacity = Capacity::of(&outcome.path);
     let reached = capacity.filter(Capacity::is_reached);
-    // What else cannot be run takes nothing away from what has been.
-    let told = |what: &str, error: RunError| {
-        board.print_result(&format!("{:<8}  {what}: {error}", specimen.name));
-    };
+    let mut missing = Vec::new();
     let numerical_error = match reached.and_then(|c| outcome.path.get(c.peak)) {
         Some(peak) if options.band => {
             let run = (specimen, &settings, &stepping);
             let found = again::numerical_error(peak.load, run, options, interrupt);
-            found
-                .map_err(|error| told("no error bar", error))
-                .ok()
-                .flatten()
+            found_or(found, "no error bar", &mut missing)
         }
         _ => None,
     };
@@ -263,10 +257,7 @@ fn run(
                 ..settings
             };
             let found = again::peak_of(specimen, &perfect, &stepping, options, interrupt);
-            let peak = found
-                .map_err(|error| told("no peak with perfect bond", error))
-                .ok()
-                .flatten();
+            let peak = found_or(found, "no peak with perfect bond", &mut missing);
             // A lower bound proves that bond governs, never that it does not.
             let told = peak.map(|p| (p.kn / figures.peak_load_kn, p.reached));
             told.filter(|(ratio, reached)| *reached || *ratio >= BOND_GOVERNS)
@@ -332,11 +323,26 @@ fn run(
     let mut line = summary.line();
     if exit != Exit::Done {
         line = format!("{line}  {kept}");
-    } else if options.band && summary.numerical_error.is_none() {
-        line += "  no error bar, for not all paths go beyond a peak";
+    } else if options.band && summary.numerical_error.is_none() && missing.is_empty() {
+        missing.push("no error bar, for not all paths go beyond a peak".into());
+    }
+    for text in missing {
+        line = format!("{line}  {text}");
     }
     board.print_result(&line);
     Ok(exit)
+}
+
+/// What a further run has found; that it cannot be run takes nothing away from what has been, and is added to what is `missing`.
+fn found_or<T>(
+    found: Result<Option<T>, RunError>,
+    what: &str,
+    missing: &mut Vec<String>,
+) -> Option<T> {
+    found.unwrap_or_else(|error| {
+        missing.push(format!("{what}: {error}"));
+        None
+    })
 }
 
 fn diagnosis(

@@ -98,6 +98,8 @@ impl<'a> Recording<'a> {
         let begin = Instant::now();
         let refused = |source| refused(&self.folder, source);
         if self.fields == Fields::Last {
+            // An interruption wrote those of its last step.
+            self.folder.remove_fields()?;
             let series = self.series.insert(series(&self.folder)?);
             for s in states {
                 series

@@ -60,6 +60,9 @@ pub(super) fn begin(
     if options.resume
         && let Some(beginning) = earlier(&options.output.join(name), input_hash)?
     {
+        if let Beginning::From(folder, _) = &beginning {
+            folder.remove_drafts()?;
+        }
         return Ok(beginning);
     }
     let folder = Folder::create(&options.output, name)?;
