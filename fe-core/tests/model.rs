@@ -75,6 +75,11 @@ fn boxes_of_one_name_form_one_block_and_lines_must_be_numbers() {
     let mut grid = GridBuilder::new();
     grid.add_box("flat", &[0.0, 1.0], &[0.0], &[0.0, 1.0]);
     assert_eq!(grid.finish(), Err(MeshError::NoCell("flat".into())));
+    for lines in [[10.0, 0.0], [0.0, 1e-9]] {
+        let mut grid = GridBuilder::new();
+        grid.add_box("turned", &lines, &[0.0, 1.0], &[0.0, 1.0]);
+        assert_eq!(grid.finish(), Err(MeshError::Lines("turned".into())));
+    }
 }
 
 #[test]

@@ -53,3 +53,60 @@ pub(super) fn broken(specimen: &Specimen, at: &Snapshot) -> Vec<String> {
     });
     said.collect()
 }
+
+#[cfg(test)]
+mod tests {
+    //! Protects the warnings from silence and from noise.
+    use super::*;
+    use crate::results::evidence::BarReach;
+    use crate::spec::{BUILTIN, read};
+
+    fn specimen() -> Specimen {
+        let (name, text) = BUILTIN[0];
+        read(name, text).unwrap()
+    }
+
+    #[test]
+    fn only_pulls_that_matter_are_told() {
+        assert_eq!(pulls(0.01), None);
+        assert!(pulls(0.2).unwrap().contains("by 20 % of all loads"));
+    }
+
+    #[test]
+    fn a_node_elsewhere_is_told_with_its_place() {
+        let specimen = specimen();
+        let at = &specimen.measuring.deflection;
+        let [x, y, z] = [at.x_mm.get(), at.y_mm.get(), at.z_mm.get()];
+        assert_eq!(read_elsewhere(&specimen, [x, y, z]), None);
+        let text = read_elsewhere(&specimen, [x + 3.0, y + 4.0, z]).unwrap();
+        assert!(text.contains("5.0 mm from the place asked for"), "{text}");
+    }
+
+    #[test]
+    fn bars_and_stirrups_beyond_their_strength_are_told() {
+        let specimen = specimen();
+        let (bar, stirrups) = (&specimen.bars[0], specimen.stirrups.as_ref().unwrap());
+        let reach = |bar: &str, utilisation| BarReach {
+            bar: bar.into(),
+            x_mm: 0.0,
+            utilisation,
+        };
+        let rupture = |steel: &crate::spec::Steel| steel.fu_mpa.get() / steel.fy_mpa.get();
+        let at = Snapshot {
+            bars: vec![reach(&bar.name, 1.1 * rupture(&bar.steel))],
+            stirrups: vec![
+                reach("leg", 1.2 * rupture(&stirrups.steel)),
+                reach("leg", 0.5),
+            ],
+            ..Snapshot::default()
+        };
+        let told = broken(&specimen, &at);
+        assert_eq!(told.len(), 2);
+        assert!(told[0].contains("1.10 times") && told[1].starts_with("stirrups carry up to 1.20"));
+        let whole = Snapshot {
+            bars: vec![reach(&bar.name, 1.0)],
+            ..Snapshot::default()
+        };
+        assert!(broken(&specimen, &whole).is_empty());
+    }
+}

@@ -380,6 +380,28 @@ fn mistakes_in_a_file_are_named_with_their_place() {
     check_cases(BEAM, CASES);
 }
 
+/// Target: shear at an inner support is read off equal shares of the load, so spans carry alike and supports hold up.
+#[test]
+fn shear_of_unlike_spans_is_refused() {
+    let beam = include_str!("../../specimens/B-CF1.ron");
+    assert!(beam.contains("InnerShear"));
+    let cases: &[Case] = &[
+        (
+            "x_mm: 1375,",
+            "x_mm: 3000,",
+            "",
+            &["measuring.load: shear at an inner support of spans with [0, 2] loads"],
+        ),
+        (
+            "            x_mm: 460,\n            held: [Uy],",
+            "            x_mm: 460,\n            held: [Ux],",
+            "",
+            &["supports[0].held: no Uy, where shear at an inner support is measured"],
+        ),
+    ];
+    check_cases(beam, cases);
+}
+
 fn check_cases(beam: &str, cases: &[Case]) {
     for (from, to, what, words) in cases {
         let (message, code) = run_changed(beam, from, to);
@@ -453,6 +475,37 @@ const COMMANDS: &[Arguments] = &[
         &["run", "A-SO3-1", "-o", "file/below"],
         4,
         &["cannot write file/below"],
+    ),
+    (
+        &["run", "A-SO3-2", "--bond", "perfect", "--counterfactual"],
+        2,
+        &["--counterfactual has no effect with perfect bond"],
+    ),
+    (
+        &[
+            "run",
+            "A-SO3-2",
+            "--law",
+            "objective",
+            "--bond",
+            "perfect",
+            "--strip-bond",
+            "sheet",
+        ],
+        2,
+        &["--strip-bond has no effect with perfect bond"],
+    ),
+    (
+        &[
+            "run",
+            "A-SO3-1",
+            "--preset",
+            "characteristic",
+            "--crack-spacing-mm",
+            "40",
+        ],
+        2,
+        &["--crack-spacing-mm has no effect without interlock"],
     ),
     (
         &["run", "A-SO3-1", "--mesh", "0x4x1"],
