@@ -148,7 +148,7 @@ impl SolverError {
     pub fn is_recoverable(&self) -> bool {
         match self {
             Self::Model(e) => e.is_recoverable(),
-            Self::Singular { .. } => true,
+            Self::Singular { .. } | Self::Linear(LinearError::NotFinite { .. }) => true,
             _ => false,
         }
     }

@@ -29,9 +29,8 @@ fn store(folder: &Path, name: &str) {
     let history = "step,deflection_mm,load_kn\n0,0,0\n1,2,90\n2,3,70\n";
     fs::write(folder.join("history.csv"), history).unwrap();
     fs::write(folder.join("events.csv"), "event,step\n").unwrap();
-    for table in ["gauges.csv", "newton.csv"] {
-        fs::write(folder.join(table), "load_kn\n1\n").unwrap();
-    }
+    fs::write(folder.join("gauges.csv"), "load_kn\n0\n90\n70\n").unwrap();
+    fs::write(folder.join("newton.csv"), "step\n").unwrap();
 }
 
 #[test]

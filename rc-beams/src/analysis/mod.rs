@@ -190,7 +190,7 @@ pub enum AnalysisError {
     #[error(transparent)]
     Solver(#[from] SolverError),
     /// The beam does not stand.
-    #[error("under its own weight, before any load: {0}")]
+    #[error("under its own weight, before any load, which it may be too weak to carry: {0}")]
     SelfWeight(SolverError),
     /// The bare beam fails before the sheets are bonded.
     #[error(

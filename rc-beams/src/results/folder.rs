@@ -73,7 +73,14 @@ impl Folder {
     ///
     /// [`ResultsError::Output`].
     pub fn remove_fields(&self) -> Result<(), ResultsError> {
-        self.sweep(|name| name.starts_with("fields_") && name.strip_suffix(".vtu").is_some())
+        self.sweep(|name| {
+            let stem = name
+                .strip_prefix("fields_")
+                .and_then(|n| n.strip_suffix(".vtu"));
+            // `fields_0001.vtu`, `fields_bars_0001.vtu`: what else is there is somebody else's.
+            let number = stem.and_then(|stem| stem.rsplit('_').next());
+            number.is_some_and(|n| n.len() >= 4 && n.bytes().all(|c| c.is_ascii_digit()))
+        })
     }
 
     fn sweep(&self, stale: fn(&str) -> bool) -> Result<(), ResultsError> {

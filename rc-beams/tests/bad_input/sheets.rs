@@ -57,7 +57,7 @@ const ON_STRIPS: &[Case] = &[
         "name: \"bottom x1370\"",
         "",
         &[
-            "measuring.sheet_gauges[1].name: \"bottom x1370\" and \"bottom_x1370\" give gauges one column",
+            "measuring.sheet_gauges[1].name: \"bottom x1370\" and \"bottom_x1370\" name gauges alike",
         ],
     ),
     // A wrap named like a strip of the one before.
@@ -67,9 +67,7 @@ const ON_STRIPS: &[Case] = &[
          stretches: [(x_from_mm: 100, x_to_mm: 150)], \
          faces: [(face: Side, from_mm: 0, to_mm: 305, angles_deg: [90])]), ",
         "",
-        &[
-            "sheets.wraps[1].name: \"U strips 2\" and \"U strips-2\" give sheets one column, u_strips_2",
-        ],
+        &["sheets.wraps[1].name: \"U strips 2\" and \"U strips-2\" name sheets alike"],
     ),
 ];
 

@@ -140,7 +140,24 @@ pub(super) fn read(folder: &Path) -> (Option<Stored>, Vec<String>) {
         sheets: None,
         map: Vec::new(),
     };
+    let mut gauged = 0;
+    let gauges = rows(folder, "gauges.csv", &mut |row| {
+        gauged += 1;
+        row.number("load_kn").map(drop)
+    });
+    match gauges {
+        Err(what) => wrong.push(what),
+        Ok(()) if gauged != beam.path.len() => wrong.push(format!(
+            "gauges.csv has {gauged} rows for {} of history.csv",
+            beam.path.len()
+        )),
+        Ok(()) => {}
+    }
     let has = |file: &str| exists(&folder.join(file));
+    if has("newton.csv") {
+        // A motion has no iterations.
+        wrong.extend(rows(folder, "newton.csv", &mut |_| Ok(())).err());
+    }
     if has("events.csv") {
         let events = rows(folder, "events.csv", &mut |row| {
             beam.events.push(event(row)?);
@@ -152,7 +169,7 @@ pub(super) fn read(folder: &Path) -> (Option<Stored>, Vec<String>) {
     let sheet_tables = ["sheets.csv", MAP];
     let with_sheets = sheet_tables.into_iter().any(has);
     let expected = sheet_tables.into_iter().filter(|_| with_sheets);
-    let always = ["events.csv", "gauges.csv", "newton.csv"];
+    let always = ["events.csv", "newton.csv"];
     for file in expected.chain(always).filter(|file| !has(file)) {
         wrong.push(format!("{file} is missing"));
     }
@@ -175,7 +192,10 @@ pub(super) fn read(folder: &Path) -> (Option<Stored>, Vec<String>) {
 fn summary(folder: &Path) -> Result<StoredSummary, String> {
     let told = |e: &dyn Display| format!("summary.json: {e}");
     let text = fs::read(folder.join("summary.json")).map_err(|e| match e.kind() {
-        io::ErrorKind::NotFound => "summary.json is missing, the run has not ended".to_owned(),
+        io::ErrorKind::NotFound => {
+            "summary.json is missing, the run has not ended or failed before its first load"
+                .to_owned()
+        }
         _ => told(&e),
     })?;
     let reader = &mut serde_json::Deserializer::from_slice(&text);
@@ -266,7 +286,7 @@ fn rows(
         visit(&row).map_err(|e| at(&e))?;
         count += 1;
     }
-    if count == 0 && file != "events.csv" {
+    if count == 0 && !["events.csv", "newton.csv"].contains(&file) {
         return Err(format!("{file} has no rows"));
     }
     Ok(())

@@ -32,7 +32,11 @@ fn store(root: &Path, name: &str, peak: f64, test: Option<f64>) {
     fs::write(folder.join("history.csv"), history).unwrap();
     let events = "event,step,deflection_mm,load_kn,x_mm,y_mm,z_mm,where,detail\n";
     fs::write(folder.join("events.csv"), events).unwrap();
-    fs::write(folder.join("gauges.csv"), "deflection_mm,load_kn\n1,1\n").unwrap();
+    fs::write(
+        folder.join("gauges.csv"),
+        "deflection_mm,load_kn\n0,0\n1,1\n2,2\n3,3\n",
+    )
+    .unwrap();
     fs::write(folder.join("newton.csv"), "step,attempt\n1,1\n").unwrap();
 }
 
@@ -156,6 +160,18 @@ fn damaged_results_are_told_once_per_beam_and_the_others_are_reported() {
             "A-SO3-1/events.csv",
             Some("event,step,deflection_mm,load_kn\nexplosion,1,1,1\n".to_owned()),
             &["events.csv, line 2: \"explosion\" is no event"],
+            3,
+        ),
+        (
+            "A-SO3-1/gauges.csv",
+            Some(String::new()),
+            &["gauges.csv is empty"],
+            3,
+        ),
+        (
+            "A-SO3-1/gauges.csv",
+            Some("deflection_mm,load_kn\n0,0\n".to_owned()),
+            &["gauges.csv has 1 rows for 4 of history.csv"],
             3,
         ),
         (

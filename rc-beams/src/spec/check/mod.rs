@@ -104,7 +104,7 @@ impl Checks<'_> {
                 format!("{name:?} names two {what}; allowed: a name of its own")
             } else {
                 format!(
-                    "{name:?} and {other:?} give {what} one column, {column}; allowed: names that differ in letters or digits"
+                    "{name:?} and {other:?} name {what} alike but for signs; allowed: names that differ in letters or digits"
                 )
             };
             self.report(path, message, remedy);

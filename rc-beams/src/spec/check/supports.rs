@@ -27,6 +27,15 @@ impl Checks<'_> {
         self.contacts("load", above.collect());
         self.apart();
         self.held();
+        for (i, support) in self.specimen.supports.iter().enumerate() {
+            if support.held.is_empty() {
+                self.report(
+                    format!("supports[{i}].held"),
+                    "holds nothing; allowed: Ux, Uy, or both",
+                    "name what it holds, or leave the support out",
+                );
+            }
+        }
         self.stubs();
         self.measuring();
     }
