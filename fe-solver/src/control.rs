@@ -16,13 +16,17 @@ use crate::stage::Stage;
 pub enum OnFailure {
     /// Stop with [`SolverError::NoConvergence`].
     Stop,
-    /// Accept the best iterate, or one that creates energy, and flag the step; stop with [`SolverError::NoConvergence`] after
+    /// Accept the best iterate, unless it has diverged, or one that creates energy, and flag the step; stop with [`SolverError::NoConvergence`] after
     /// [`MAX_FLAGGED`] such steps in a row.
     Flag,
 }
 
 /// Steps in a row that may miss the criterion; a path that loses equilibrium for longer is not followed.
 pub const MAX_FLAGGED: usize = 10;
+
+/// Relative residual beyond which an iterate is no state of the model at all, and no step is made of it: in a collapse, where
+/// reactions vanish, it may come to some hundreds.
+const UNBALANCED: f64 = 1e3;
 
 /// Settings of the step control; lengths in units of the load factor, or of what the path constraint of the driver measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -173,7 +177,9 @@ impl StepControl {
                 !can_shorten && self.on_failure == OnFailure::Flag && flagged < MAX_FLAGGED;
             let attempt = self.attempt(stage, driver, (recorder, &mut heard), plan);
             match attempt {
-                Ok(mut attempt) if attempt.converged || may_flag => {
+                Ok(mut attempt)
+                    if attempt.converged || may_flag && attempt.residual.relative <= UNBALANCED =>
+                {
                     let (signs, change) = match self.measure(stage, &attempt) {
                         Ok(measured) => measured,
                         Err(e) if can_shorten && Self::may_recover(&e, stage) => {
