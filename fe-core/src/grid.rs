@@ -120,8 +120,8 @@ impl GridBuilder {
     ///
     /// # Errors
     ///
-    /// [`MeshError::NotFinite`] for a line that is not a number, [`MeshError::Lines`] for lines that do not ascend, [`MeshError::NoCell`] for a block without a cell: boxes of fewer than two lines in
-    /// some direction.
+    /// [`MeshError::NotFinite`] for a line that is not a number, [`MeshError::Lines`] for lines that do not ascend,
+    /// [`MeshError::NoCell`] for a block without a cell: boxes of fewer than two lines in some direction.
     pub fn finish(self) -> Result<Mesh, MeshError> {
         let mut mesh = Mesh::new(self.nodes)?;
         if let Some(block) = self.unordered {

@@ -10,7 +10,7 @@ use fe_core::shape::{hex20, quadrature};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::kernel::{self, PAD, Point};
-use crate::quad8::FLAT;
+use crate::quad8::corners_turn;
 use crate::solid::{Interpolation, SolidElement};
 use crate::vectors::{add_by_node, by_direction};
 
@@ -99,7 +99,8 @@ impl Hex20 {
                 map(coords, point, xi)?;
             }
         }
-        corners_turn(coords)?;
+        let at = |xi| hex20::map(coords, xi).2;
+        corners_turn(hex20::NODES[..8].iter().map(|xi| at(*xi)), at([0.0; 3]))?;
         let mut points = Vec::new();
         let mut positions = Vec::new();
         for (point, (xi, w)) in rule.points().into_iter().enumerate() {
@@ -120,19 +121,6 @@ impl Hex20 {
         let band = band.of(coords, volume, points.len());
         Self::of(Brick { nodes, points }, positions, law, band)
     }
-}
-
-/// Refuses a cell that is turned over at a corner: two of its nodes may be exchanged. A corner may be flat, as in a wedge.
-fn corners_turn(coords: &[[f64; 3]; 20]) -> Result<(), ElementError> {
-    let at = |xi| hex20::map(coords, xi).2;
-    let middle = at([0.0; 3]);
-    for (point, xi) in hex20::NODES.into_iter().take(8).enumerate() {
-        let determinant = at(xi);
-        if determinant < -FLAT * middle.abs() {
-            return Err(ElementError::Jacobian { point, determinant });
-        }
-    }
-    Ok(())
 }
 
 /// Position (mm), gradients (1/mm) and Jacobian determinant (mm3) at a point.

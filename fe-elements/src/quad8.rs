@@ -52,12 +52,7 @@ impl Quad8 {
             Matrix2::from_fn(|r, c| (0..8).map(|a| slopes[a][r] * coords[a][c]).sum::<f64>())
         };
         let at = |xi| jacobian(quad8::shape(xi).1).determinant();
-        for (point, xi) in quad8::NODES.into_iter().take(4).enumerate() {
-            let determinant = at(xi);
-            if determinant < -FLAT * at([0.0; 2]).abs() {
-                return Err(ElementError::Jacobian { point, determinant });
-            }
-        }
+        corners_turn(quad8::NODES[..4].iter().map(|xi| at(*xi)), at([0.0; 2]))?;
         let mut points = Vec::new();
         for (point, (xi, w)) in rule.points().into_iter().enumerate() {
             let (values, slopes) = quad8::shape(xi);
@@ -79,9 +74,22 @@ impl Quad8 {
     }
 }
 
-/// Share of the Jacobian determinant in the middle by which that of a corner may be negative: exchanged nodes give -1 or less, the
-/// patch of MacNeal and Harder (1985), which is distorted only, -0.05 (assumed).
-pub(crate) const FLAT: f64 = 0.25;
+/// Share of the Jacobian determinant in the middle by which that of a corner may be negative: exchanged nodes give -1 or
+/// less, the patch of MacNeal and Harder (1985), which is distorted only, -0.05 (assumed).
+const FLAT: f64 = 0.25;
+
+/// Refuses a face or cell whose determinants at the corners say that it is turned over at one, against that in its `middle`:
+/// two of its nodes may be exchanged. A corner may be flat, as in a wedge.
+pub(crate) fn corners_turn(
+    corners: impl Iterator<Item = f64>,
+    middle: f64,
+) -> Result<(), ElementError> {
+    let turned = |(_, determinant): &(usize, f64)| *determinant < -FLAT * middle.abs();
+    match corners.enumerate().find(turned) {
+        Some((point, determinant)) => Err(ElementError::Jacobian { point, determinant }),
+        None => Ok(()),
+    }
+}
 
 /// Inverse and determinant of a Jacobian matrix dx_c/dxi_r; the determinant alone if it is not positive.
 pub(crate) fn invert(jacobian: Matrix2<f64>) -> Result<(Matrix2<f64>, f64), f64> {

@@ -4,7 +4,7 @@ use fe_core::element::ElementError;
 use fe_core::shape::quad8;
 use nalgebra::{Matrix2, Rotation2, Vector2, Vector3};
 
-use crate::quad8::{FLAT, QuadRule, gradients, invert};
+use crate::quad8::{QuadRule, corners_turn, gradients, invert};
 
 /// Smallest angle between the direction of axis 1 and the normal (degrees).
 const LEAST_ANGLE: f64 = 1.0;
@@ -70,14 +70,11 @@ pub(crate) fn places(
 ) -> Result<Vec<Place>, ElementError> {
     let [along, across] = quad8::base(coords, &quad8::shape([0.0; 2]).1);
     let middle = along.cross(&across);
-    for (point, xi) in quad8::NODES.into_iter().take(4).enumerate() {
-        let [along, across] = quad8::base(coords, &quad8::shape(xi).1);
-        let area = along.cross(&across).dot(&middle) / middle.norm();
-        if area < -FLAT * middle.norm() {
-            let determinant = area;
-            return Err(ElementError::Jacobian { point, determinant });
-        }
-    }
+    let corner = |xi: &[f64; 2]| {
+        let [along, across] = quad8::base(coords, &quad8::shape(*xi).1);
+        along.cross(&across).dot(&middle) / middle.norm()
+    };
+    corners_turn(quad8::NODES[..4].iter().map(corner), middle.norm())?;
     let place = |(point, (xi, weight)): (usize, ([f64; 2], f64))| {
         let (values, slopes) = quad8::shape(xi);
         let tangents = quad8::base(coords, &slopes);

@@ -153,8 +153,9 @@ impl FixedCrackParameters {
     }
 
     /// Length l = max(h, s) (mm) over which the strains of a crack band of width h (mm) make up one crack, which opens
-    /// by w = l kt (struts) or, less what is elastic, l (kt - ft/E) (interlock), and slips by l gamma. A band as wide as the spacing of cracks or wider holds one crack; narrower ones share it
-    /// with their neighbours, or smaller elements would mean more and finer cracks.
+    /// by w = l kt (struts) or, less what is elastic, l (kt - ft/E) (interlock), and slips by l gamma. A band as wide as
+    /// the spacing of cracks or wider holds one crack; narrower ones share it with their neighbours, or smaller elements
+    /// would mean more and finer cracks.
     pub const fn crack_reach(&self, band_width: f64) -> f64 {
         band_width.max(self.crack_spacing_mm)
     }

@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
-/// What peaks move by as cracks fall otherwise, on another mesh or another branch, and which the finer mesh of one beam can miss by
-/// chance: about twice the root mean square of its changes in the beams whose trust is not low, 3.6 to 4.4 % as laws and paths changed (`docs/accuracy.md`).
+/// What peaks move by as cracks fall otherwise, on another mesh or another branch, and which the finer mesh of one beam can
+/// miss by chance: about twice the root mean square of its changes in the beams whose trust is not low, 3.6 to 4.4 % as laws
+/// and paths changed (`docs/accuracy.md`).
 pub const CHANCE: f64 = 0.08;
 /// Elements of the finer mesh along and up over those of the mesh.
 pub const REFINEMENT: f64 = 1.5;

@@ -19,7 +19,10 @@ pub(super) fn read_elsewhere(specimen: &Specimen, node: [f64; 3]) -> Option<Stri
         .sqrt();
     (off > SAME_PLACE_MM).then(|| {
         let [x, y, z] = node;
-        format!("the deflection is that of the nearest node, at x = {x:.1}, y = {y:.1}, z = {z:.1} mm, {off:.1} mm from the place asked for")
+        format!(
+            "the deflection is that of the nearest node, at x = {x:.1}, y = {y:.1}, z = {z:.1} mm, {off:.1} mm from the \
+             place asked for"
+        )
     })
 }
 

@@ -6,7 +6,8 @@
 //! none grow. Measures, beside those of [`super`]:
 //!
 //! - *loss*: of the force SVf ([`SpanReading::force_kn`](crate::results::sheets::SpanReading)), relative to the peak; all
-//!   of it where the load is lost there, [`LOST`](crate::results::sheets::LOST) or more of it, as what is left is a motion, no equilibrium that forces could be read from;
+//!   of it where the load is lost there, [`LOST`](crate::results::sheets::LOST) or more of it, as what is left is a motion,
+//!   no equilibrium that forces could be read from;
 //! - *debonded*: share of the side of the span at the end of the drop;
 //! - *utilisation*: largest of any sheet up to the peak;
 //! - *ratio*: peak of the same beam with perfect bond over that of the beam, where it is known. At least
