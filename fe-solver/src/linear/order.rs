@@ -1,4 +1,5 @@
-//! Orders of elimination, and the choice among them by counted operations.
+//! Orders of elimination, and the choice among them by counted operations. That of the numbering from one end alone is no
+//! candidate: it takes the operations of both ends, and leaves nothing to be done at the same time.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;

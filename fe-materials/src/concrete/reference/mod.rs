@@ -1,4 +1,10 @@
-//! Fixed orthotropic cracks with tension stiffening over a fixed strain: the published model of the beams.
+//! Fixed orthotropic cracks with tension stiffening over a fixed strain: the published model of the beams (Soares 2022).
+//!
+//! Its text is taken with these corrections: c1 of the surface (3.20) has its factor of 4 and holds for
+//! lambda_c/lambda_t <= 1/2; the modulus (3.27) has its factor Eci and the exponent of the Model Code; the derivatives of the
+//! surface (3.36 to 3.41) are those of one order of shears and one Lode angle; tension stiffening (3.42) begins at alpha
+//! fctm; shear retention (3.46), negative beyond 0.005 where the text begins it at 0.01, stays at its floor from there
+//! ([`ShearRetention`]).
 
 mod cracked;
 mod parameters;
