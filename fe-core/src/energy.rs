@@ -135,8 +135,8 @@ impl Ledger {
             .zip(&self.elements)
             .enumerate()
             .filter_map(|(e, (now, seen))| {
-                let at = (model.elements()[e].as_ref(), element(e));
-                let followed = now.follow(seen, at.0, (before, u), at.1);
+                let own = model.elements()[e].as_ref();
+                let followed = now.follow(seen, own, (before, u), element(e));
                 followed.err().map(|source| (e, source))
             });
         // The first element that fails, whatever the order in which threads come to them.

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use crate::mesh::{CellKind, Mesh, MeshError, NodeId};
+use crate::shape::hex20;
 
 /// Nodes within half of this (mm) along every axis are one; those farther apart than one and a half of it are two.
 const MERGE: f64 = 1e-6;
@@ -29,30 +30,6 @@ pub struct GridBuilder {
     unordered: Option<String>,
 }
 
-/// Offsets of the 20 nodes of a cell in half steps, VTK order.
-const HALF_STEPS: [[usize; 3]; 20] = [
-    [0, 0, 0],
-    [2, 0, 0],
-    [2, 2, 0],
-    [0, 2, 0],
-    [0, 0, 2],
-    [2, 0, 2],
-    [2, 2, 2],
-    [0, 2, 2],
-    [1, 0, 0],
-    [2, 1, 0],
-    [1, 2, 0],
-    [0, 1, 0],
-    [1, 0, 2],
-    [2, 1, 2],
-    [1, 2, 2],
-    [0, 1, 2],
-    [0, 0, 1],
-    [2, 0, 1],
-    [2, 2, 1],
-    [0, 2, 1],
-];
-
 impl GridBuilder {
     /// An empty grid.
     pub fn new() -> Self {
@@ -72,10 +49,10 @@ impl GridBuilder {
             for j in 0..y.len().saturating_sub(1) {
                 for i in 0..x.len().saturating_sub(1) {
                     let first = [i, j, k];
-                    for half in HALF_STEPS {
+                    for natural in hex20::NODES {
                         let position = std::array::from_fn(|a| {
                             let (low, high) = (lines[a][first[a]], lines[a][first[a] + 1]);
-                            low + 0.5 * half[a] as f64 * (high - low)
+                            low + 0.5 * (natural[a] + 1.0) * (high - low)
                         });
                         cells.push(self.node(position));
                     }

@@ -34,12 +34,8 @@ pub fn face_traction(
     let mut forces: Vec<(NodeId, [f64; 3])> = nodes.iter().map(|&n| (n, [0.0; 3])).collect();
     for (xi, w) in quadrature::square(3) {
         let (values, slopes) = quad8::shape(xi);
-        let tangent = |k: usize| -> Vector3<f64> {
-            (0..8)
-                .map(|a| slopes[a][k] * Vector3::from(coords[a]))
-                .sum()
-        };
-        let normal = tangent(0).cross(&tangent(1));
+        let [along, across] = quad8::base(coords, &slopes);
+        let normal = along.cross(&across);
         let area = normal.norm();
         if area == 0.0 {
             // A face that has collapsed, as of a wedge.

@@ -128,16 +128,16 @@ impl Automatic {
         let (Some(last), Some((du, _))) = (Energies::last(stage)?, stage.previous()) else {
             return Ok(());
         };
-        let largest = du.iter().fold(0.0_f64, |a, d| a.max(d.abs()));
+        let largest = largest(du.iter().copied());
+        if largest == 0.0 {
+            return Ok(());
+        }
         // Steps accepted by another driver, or recalled, have no length here.
         let length = if self.length > 0.0 {
             self.length
         } else {
             largest
         };
-        if largest == 0.0 {
-            return Ok(());
-        }
         if self.control == Control::Dissipation {
             self.rate *= (length / largest).clamp(PACE.0, PACE.1);
             return Ok(());
@@ -207,11 +207,10 @@ impl Automatic {
     /// Whether an attempt has left the path, see [`LOST`].
     fn is_astray(stage: &Stage<'_>, attempt: &Attempt, length: f64) -> bool {
         let lost = stage.lambda().abs() - attempt.lambda.abs() > LOST * stage.lambda().abs();
-        let largest = |du: &mut dyn Iterator<Item = f64>| du.fold(0.0, |a: f64, d| a.max(d.abs()));
         let du = attempt.displacement.iter().zip(stage.displacement());
-        let reach = largest(&mut du.map(|(a, b)| a - b));
+        let reach = largest(du.map(|(a, b)| a - b));
         let before = stage.previous();
-        let before = before.map_or(0.0, |(du, _)| largest(&mut du.iter().copied()));
+        let before = before.map_or(0.0, |(du, _)| largest(du.iter().copied()));
         lost && reach > ASTRAY * before.max(length)
     }
 
@@ -274,6 +273,11 @@ impl Automatic {
         }
         others
     }
+}
+
+/// Largest size of a component.
+fn largest(du: impl Iterator<Item = f64>) -> f64 {
+    du.fold(0.0, |a, d| a.max(d.abs()))
 }
 
 impl Driver for Automatic {

@@ -350,16 +350,13 @@ impl Verdict {
         } else {
             Trust::Low
         };
-        self.trust = self.trust.max(trust);
-        let reason = format!("; {refinement}: {:+.1} % of the peak", 100.0 * change);
-        self.reason.push_str(&reason);
+        let reason = format!("{refinement}: {:+.1} % of the peak", 100.0 * change);
+        self.lower(trust, &reason);
     }
 
     /// Takes the trust away, for a reason that is added to the others: something that the model does not have has happened.
     pub fn distrust(&mut self, reason: &str) {
-        self.trust = Trust::Low;
-        self.reason.push_str("; ");
-        self.reason.push_str(reason);
+        self.lower(Trust::Low, reason);
     }
 
     /// Lowers the trust to limited where cracked concrete has carried more than [`LOCKING`] times its tensile strength,
@@ -374,7 +371,12 @@ impl Verdict {
 
     /// Lowers the trust to limited for a reason that the path does not tell, which is added.
     pub fn limit(&mut self, reason: &str) {
-        self.trust = self.trust.max(Trust::Limited);
+        self.lower(Trust::Limited, reason);
+    }
+
+    /// Lowers the trust to `at_most`, if it is better, and adds the reason.
+    fn lower(&mut self, at_most: Trust, reason: &str) {
+        self.trust = self.trust.max(at_most);
         self.reason.push_str("; ");
         self.reason.push_str(reason);
     }

@@ -1,12 +1,9 @@
 //! Time of a bare and of a strengthened beam through their first diagonal cracks, up to 1 mm at the default settings, without
 //! output; one thread. Whole paths, and what a run writes beside them: `rc-beams run`, whose times `docs/beams.md` has.
 
-use std::io;
-
 use criterion::{Criterion, criterion_group, criterion_main};
-use fe_solver::recorder::{Continue, IterationRecord, StepView};
 use fe_solver::secant::SecantAnderson;
-use rc_beams::analysis::{Observer, Reading, Stepping, analyse};
+use rc_beams::analysis::{Observer, Stepping, analyse};
 use rc_beams::build::{Beam, ModelSettings};
 use rc_beams::options::Preset;
 use rc_beams::spec::{BUILTIN, read};
@@ -14,23 +11,7 @@ use rc_beams::spec::{BUILTIN, read};
 /// Looks at nothing.
 struct Blind;
 
-impl Observer for Blind {
-    fn weight(&mut self, _: &StepView<'_>, _: &Reading) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn iteration(&mut self, _: &IterationRecord) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn step(&mut self, _: &StepView<'_>, _: usize, _: &Reading) -> io::Result<Continue> {
-        Ok(Continue::Yes)
-    }
-
-    fn bonded(&mut self, _: &Beam) -> io::Result<()> {
-        Ok(())
-    }
-}
+impl Observer for Blind {}
 
 fn beam(c: &mut Criterion) {
     let stepping = Stepping {

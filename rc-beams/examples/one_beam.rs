@@ -2,7 +2,7 @@
 
 use std::io;
 
-use fe_solver::recorder::{Continue, IterationRecord, StepView};
+use fe_solver::recorder::{Continue, StepView};
 use fe_solver::secant::SecantAnderson;
 use rc_beams::analysis::{Observer, Reading, Stepping, analyse};
 use rc_beams::build::{Beam, ModelSettings};
@@ -14,21 +14,9 @@ use rc_beams::spec::{BUILTIN, read};
 struct Curve(Vec<[f64; 2]>);
 
 impl Observer for Curve {
-    fn weight(&mut self, _: &StepView<'_>, _: &Reading) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn iteration(&mut self, _: &IterationRecord) -> io::Result<()> {
-        Ok(())
-    }
-
     fn step(&mut self, _: &StepView<'_>, _: usize, reading: &Reading) -> io::Result<Continue> {
         self.0.push([reading.deflection_mm, reading.load_kn]);
         Ok(Continue::Yes)
-    }
-
-    fn bonded(&mut self, _: &Beam) -> io::Result<()> {
-        Ok(())
     }
 }
 

@@ -122,10 +122,6 @@ impl Observer for Sober {
         self.steps += 1;
         Ok(Continue::Yes)
     }
-
-    fn bonded(&mut self, _: &Beam) -> io::Result<()> {
-        Ok(())
-    }
 }
 
 /// How a spoilt file ends.

@@ -233,11 +233,9 @@ impl<'a, K: Kinematics> PointDriver<'a, K> {
         let mut response = self.update(&strain, &base, &mut trial)?;
         let mut residual = miss(&response);
         for iterations in 0.. {
-            let largest = K::components(&response.stress)
-                .iter()
-                .fold(self.scale, |m, s| m.max(s.abs()));
-            let tolerance = self.settings.tolerance * largest;
             let stress = K::components(&response.stress);
+            let largest = stress.iter().fold(self.scale, |m, s| m.max(s.abs()));
+            let tolerance = self.settings.tolerance * largest;
             if let Some(component) = stress.iter().position(|s| !s.is_finite()) {
                 return Err(Failure::Residual {
                     component,

@@ -150,12 +150,11 @@ impl Host {
                 inside = t;
                 continue;
             }
-            // The face itself, unless the segment crept along it up to here.
-            let face = self.outside(segment.at(inside)).max(0.0);
+            // What counts as inside for a bar along a face does so here: its rounding is no crossing.
             let mut outside = t;
             for _ in 0..BISECTIONS {
                 let mid = inside.midpoint(outside);
-                if self.outside(segment.at(mid)) <= face {
+                if self.outside(segment.at(mid)) <= INSIDE {
                     inside = mid;
                 } else {
                     outside = mid;
@@ -191,16 +190,12 @@ pub(super) fn cut(
         let Some((host, exit)) = hosts.iter().enumerate().find_map(ahead) else {
             return Err(ElementError::no_host(bar, segment.at(reached)));
         };
-        // A bar along a face of a distorted host leaves it, but for rounding, and comes back.
-        match pieces.last_mut().filter(|last| last.host == host) {
-            Some(last) => last.ends[1] = segment.at(exit),
-            None => pieces.push(Piece {
-                host,
-                ends: [segment.at(reached), segment.at(exit)],
-                direction: segment.direction / length,
-                start: travelled + reached * length,
-            }),
-        }
+        pieces.push(Piece {
+            host,
+            ends: [segment.at(reached), segment.at(exit)],
+            direction: segment.direction / length,
+            start: travelled + reached * length,
+        });
         reached = exit;
     }
     Ok(pieces)

@@ -112,21 +112,25 @@ impl Snapshot {
     }
 }
 
-/// Watches a run.
+/// Watches a run; what is not looked at goes on.
 pub trait Observer {
     /// The beam carries its own weight.
     ///
     /// # Errors
     ///
     /// An output error ends the run.
-    fn weight(&mut self, view: &StepView<'_>, reading: &Reading) -> io::Result<()>;
+    fn weight(&mut self, _view: &StepView<'_>, _reading: &Reading) -> io::Result<()> {
+        Ok(())
+    }
 
     /// An iteration of the load stage was evaluated.
     ///
     /// # Errors
     ///
     /// An output error ends the run.
-    fn iteration(&mut self, record: &IterationRecord) -> io::Result<()>;
+    fn iteration(&mut self, _record: &IterationRecord) -> io::Result<()> {
+        Ok(())
+    }
 
     /// The next step of an earlier run, see [`Recorder::recall`](fe_solver::recorder::Recorder::recall).
     ///
@@ -160,15 +164,23 @@ pub trait Observer {
     /// # Errors
     ///
     /// An output error ends the run.
-    fn step(&mut self, view: &StepView<'_>, step: usize, reading: &Reading)
-    -> io::Result<Continue>;
+    fn step(
+        &mut self,
+        _view: &StepView<'_>,
+        _step: usize,
+        _reading: &Reading,
+    ) -> io::Result<Continue> {
+        Ok(Continue::Yes)
+    }
 
     /// Sheets have been bonded to the loaded beam: from now on it is this one.
     ///
     /// # Errors
     ///
     /// An output error ends the run.
-    fn bonded(&mut self, beam: &Beam) -> io::Result<()>;
+    fn bonded(&mut self, _beam: &Beam) -> io::Result<()> {
+        Ok(())
+    }
 }
 
 /// A beam that is loaded before its sheets are bonded.

@@ -4,12 +4,12 @@
 use std::io;
 
 use fe_solver::capacity::Capacity;
-use fe_solver::recorder::{Continue, IterationRecord, StepView};
+use fe_solver::recorder::{IterationRecord, StepView};
 
 use super::plan::driver;
 use super::{RunError, build};
 use crate::analysis::{Observer, Reading, Staging, Stepping, analyse};
-use crate::build::{Beam, ModelSettings};
+use crate::build::ModelSettings;
 use crate::options::RunOptions;
 use crate::results::interrupt::Interrupt;
 use crate::results::numerical_error::{NumericalError, REFINEMENT};
@@ -25,14 +25,6 @@ impl Observer for Silent<'_> {
 
     fn iteration(&mut self, _: &IterationRecord) -> io::Result<()> {
         self.0.check()
-    }
-
-    fn step(&mut self, _: &StepView<'_>, _: usize, _: &Reading) -> io::Result<Continue> {
-        Ok(Continue::Yes)
-    }
-
-    fn bonded(&mut self, _: &Beam) -> io::Result<()> {
-        Ok(())
     }
 }
 

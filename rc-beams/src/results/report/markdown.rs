@@ -6,8 +6,7 @@ use super::figures::Group;
 use super::stored::{Stored, StoredSheets};
 use super::{Report, counted};
 use crate::results::events::EventKind;
-use crate::results::sheets::Shown;
-use crate::results::sheets::is_lost;
+use crate::results::sheets::{Shown, is_lost};
 
 /// The text of the report.
 pub(super) fn report(beams: &[Stored], groups: &[Group], report: &Report) -> String {

@@ -153,24 +153,18 @@ pub(super) fn read(folder: &Path) -> (Option<Stored>, Vec<String>) {
         )),
         Ok(()) => {}
     }
+    wrong.extend(rows(folder, "newton.csv", &mut |_| Ok(())).err());
+    let events = rows(folder, "events.csv", &mut |row| {
+        beam.events.push(event(row)?);
+        Ok(())
+    });
+    wrong.extend(events.err());
     let has = |file: &str| exists(&folder.join(file));
-    if has("newton.csv") {
-        // A motion has no iterations.
-        wrong.extend(rows(folder, "newton.csv", &mut |_| Ok(())).err());
-    }
-    if has("events.csv") {
-        let events = rows(folder, "events.csv", &mut |row| {
-            beam.events.push(event(row)?);
-            Ok(())
-        });
-        wrong.extend(events.err());
-    }
-    // Every run writes its events, gauges and iterations, and one with sheets two tables of them.
+    // A run with sheets writes two tables of them.
     let sheet_tables = ["sheets.csv", MAP];
     let with_sheets = sheet_tables.into_iter().any(has);
     let expected = sheet_tables.into_iter().filter(|_| with_sheets);
-    let always = ["events.csv", "newton.csv"];
-    for file in expected.chain(always).filter(|file| !has(file)) {
+    for file in expected.filter(|file| !has(file)) {
         wrong.push(format!("{file} is missing"));
     }
     if has("sheets.csv") {
@@ -286,6 +280,7 @@ fn rows(
         visit(&row).map_err(|e| at(&e))?;
         count += 1;
     }
+    // A run may meet no event, and a motion has no iterations.
     if count == 0 && !["events.csv", "newton.csv"].contains(&file) {
         return Err(format!("{file} has no rows"));
     }
