@@ -23,16 +23,23 @@ pub(super) struct Scatter {
     places: Arc<Places>,
 }
 
-/// Places of entries in the columns of the system. Neighbouring entries mostly go to neighbouring places, three to a node:
-/// these are kept by the first.
-#[derive(Debug, PartialEq, Eq)]
+/// Places of entries in the columns of the system. Neighbouring entries mostly go to neighbouring places, three to a node,
+/// or two where one is held: these are kept by the first.
+#[derive(Debug, Default, PartialEq, Eq)]
 struct Places {
-    /// Three entries of a row.
-    in_rows: Vec<Entry>,
-    /// Three entries of a column.
-    in_columns: Vec<Entry>,
+    threes: Runs,
+    twos: Runs,
     /// The others.
     single: Vec<Entry>,
+}
+
+/// First entries of those that follow one another.
+#[derive(Debug, Default, PartialEq, Eq)]
+struct Runs {
+    /// Along a row.
+    in_rows: Vec<Entry>,
+    /// Along a column.
+    in_columns: Vec<Entry>,
 }
 
 /// An entry of the element's matrix and its place in its column of the system.
@@ -46,14 +53,17 @@ struct Entry {
 impl Hash for Places {
     /// One number of all entries, for a fraction of the time of a hash of each.
     fn hash<H: Hasher>(&self, state: &mut H) {
-        let all = [&self.in_rows, &self.in_columns, &self.single];
+        let Self {
+            threes,
+            twos,
+            single,
+        } = self;
+        let runs = [threes, twos].map(|r| [&r.in_rows, &r.in_columns]);
+        let all = runs.into_iter().flatten().chain([single]);
         let mix = |mix: u64, entry: &Entry| mix.rotate_left(7) ^ entry.packed();
-        state.write_u64(all.into_iter().flatten().fold(0, mix));
+        state.write_u64(all.flatten().fold(0, mix));
     }
 }
-
-/// Entries that follow one another.
-const RUN: usize = 3;
 
 /// Elements whose places are looked up before those found alike are dropped.
 const AT_ONCE: usize = 1024;
@@ -105,23 +115,29 @@ impl Scatter {
 
     /// Adds a symmetric matrix, of which the upper triangle is read, to one triangle of the system.
     pub(super) fn add_symmetric(&self, matrix: &[f64], values: &mut [f64]) {
+        self.add_runs::<3>(&self.places.threes, matrix, values);
+        self.add_runs::<2>(&self.places.twos, matrix, values);
         let n = self.begins.len();
-        for entry in &self.places.in_rows {
+        for entry in &self.places.single {
+            values[self.position(*entry)] += matrix[entry.at(n)];
+        }
+    }
+
+    fn add_runs<const COUNT: usize>(&self, runs: &Runs, matrix: &[f64], values: &mut [f64]) {
+        let n = self.begins.len();
+        for entry in &runs.in_rows {
             let (at, to) = (entry.at(n), self.position(*entry));
-            let (from, to) = (&matrix[at..at + RUN], &mut values[to..to + RUN]);
+            let (from, to) = (&matrix[at..at + COUNT], &mut values[to..to + COUNT]);
             for (value, add) in to.iter_mut().zip(from) {
                 *value += add;
             }
         }
-        for entry in &self.places.in_columns {
+        for entry in &runs.in_columns {
             let (at, to) = (entry.at(n), self.position(*entry));
-            let to = &mut values[to..to + RUN];
+            let to = &mut values[to..to + COUNT];
             for (k, value) in to.iter_mut().enumerate() {
                 *value += matrix[at + k * n];
             }
-        }
-        for entry in &self.places.single {
-            values[self.position(*entry)] += matrix[entry.at(n)];
         }
     }
 
@@ -140,11 +156,13 @@ impl Scatter {
                 *upper += above;
             }
         };
-        for entry in &self.places.in_rows {
-            add(entry, RUN, (0, 1));
-        }
-        for entry in &self.places.in_columns {
-            add(entry, RUN, (1, 0));
+        for (runs, count) in [(&self.places.threes, 3), (&self.places.twos, 2)] {
+            for entry in &runs.in_rows {
+                add(entry, count, (0, 1));
+            }
+            for entry in &runs.in_columns {
+                add(entry, count, (1, 0));
+            }
         }
         for entry in &self.places.single {
             add(entry, 1, (0, 0));
@@ -166,7 +184,7 @@ impl Places {
                 } else {
                     pattern.position(high as usize, low as usize)
                 };
-                let (begin, above) = if row < column {
+                let (begin, above) = if row <= column {
                     (begins[i], ABOVE)
                 } else {
                     (begins[j], 0)
@@ -182,11 +200,7 @@ impl Places {
                 }
             }
         }
-        let mut found = Self {
-            in_rows: Vec::new(),
-            in_columns: Vec::new(),
-            single: Vec::new(),
-        };
+        let mut found = Self::default();
         for i in 0..n {
             for j in i..n {
                 found.take(&mut places, (i, j), n);
@@ -203,23 +217,40 @@ impl Places {
         if first == NONE {
             return;
         }
-        let along = |step: usize| (0..RUN).map(move |k| i * n + j + k * step);
-        let follows = |step: usize| {
-            let mut wanted = first..;
-            along(step).all(|at| places.get(at).copied() == wanted.next())
-        };
         let in_column_of_row = first & ABOVE != 0;
-        let (runs, step) = if in_column_of_row && j + RUN <= n && follows(1) {
-            (&mut self.in_rows, 1)
-        } else if !in_column_of_row && i + RUN <= n && follows(n) {
-            (&mut self.in_columns, n)
+        let (step, left) = if in_column_of_row {
+            (1, n - j)
         } else {
-            places[i * n + j] = NONE;
-            self.single.push(entry(first, i, j));
-            return;
+            (n, n - i)
         };
-        runs.push(entry(first, i, j));
-        for at in along(step) {
+        let along = |count: usize| (0..count).map(move |k| i * n + j + k * step);
+        let follow = |count: usize| {
+            count <= left
+                && along(count)
+                    .zip(first..)
+                    .all(|(at, wanted)| places[at] == wanted)
+        };
+        let count = if follow(3) {
+            3
+        } else if follow(2) {
+            2
+        } else {
+            1
+        };
+        let of_runs = |runs: &'_ mut Runs| {
+            let runs = if in_column_of_row {
+                &mut runs.in_rows
+            } else {
+                &mut runs.in_columns
+            };
+            runs.push(entry(first, i, j));
+        };
+        match count {
+            3 => of_runs(&mut self.threes),
+            2 => of_runs(&mut self.twos),
+            _ => self.single.push(entry(first, i, j)),
+        }
+        for at in along(count) {
             places[at] = NONE;
         }
     }
