@@ -19,6 +19,7 @@ pub mod laws;
 pub mod manual;
 pub mod mesh;
 pub mod panel;
+pub mod pardiso;
 pub mod provenance;
 pub mod sample;
 pub mod shell;
