@@ -28,6 +28,10 @@ pub const MAX_FLAGGED: usize = 10;
 /// reactions vanish, it may come to some hundreds.
 const UNBALANCED: f64 = 1e3;
 
+/// Share of the size of the mesh beyond which what moves within one step that misses the criterion has come off the model:
+/// displacements are small.
+const FARTHEST: f64 = 0.1;
+
 /// Settings of the step control; lengths in units of the load factor, or of what the path constraint of the driver measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepControl {
@@ -177,9 +181,7 @@ impl StepControl {
                 !can_shorten && self.on_failure == OnFailure::Flag && flagged < MAX_FLAGGED;
             let attempt = self.attempt(stage, driver, (recorder, &mut heard), plan);
             match attempt {
-                Ok(mut attempt)
-                    if attempt.converged || may_flag && attempt.residual.relative <= UNBALANCED =>
-                {
+                Ok(mut attempt) if attempt.converged || may_flag && is_a_state(stage, &attempt) => {
                     let (signs, change) = match self.measure(stage, &attempt) {
                         Ok(measured) => measured,
                         Err(e) if can_shorten && Self::may_recover(&e, stage) => {
@@ -432,6 +434,15 @@ impl StepControl {
     }
 }
 
+/// Whether an attempt that misses the criterion ends in a state of the model, and has not diverged.
+fn is_a_state(stage: &Stage<'_>, attempt: &Attempt) -> bool {
+    let [low, high] = stage.model().mesh().bounding_box();
+    let size = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
+    let ways = attempt.displacement.iter().zip(stage.displacement());
+    let farthest = ways.map(|(to, from)| (to - from).abs()).fold(0.0, f64::max);
+    attempt.residual.relative <= UNBALANCED && farthest <= FARTHEST * size
+}
+
 /// Gives an attempt up for a shorter step.
 fn cut_back(stage: &mut Stage<'_>) {
     stage.roll_back();
@@ -476,6 +487,7 @@ mod tests {
     use super::*;
     use std::sync::Arc;
 
+    use fe_core::dof::Dof;
     use fe_core::grid::GridBuilder;
     use fe_core::model::{Conditions, Model};
     use fe_core::shape::hex20;
@@ -487,9 +499,9 @@ mod tests {
     use crate::recorder::Silent;
     use crate::stage::Residual;
 
-    /// Never arrives; counts how often it is asked.
+    /// Never arrives, but moves all by this (mm) in the end; counts how often it is asked.
     #[derive(Debug)]
-    struct Never(usize);
+    struct Never(usize, f64);
 
     impl Driver for Never {
         fn name(&self) -> &'static str {
@@ -505,7 +517,7 @@ mod tests {
             self.0 += 1;
             assert!(self.0 < 100, "asked again for {}", request.length);
             Ok(Attempt {
-                displacement: stage.displacement().to_vec(),
+                displacement: stage.displacement().iter().map(|u| u + self.1).collect(),
                 lambda: stage.lambda() + request.length,
                 converged: false,
                 residual: Residual {
@@ -524,6 +536,38 @@ mod tests {
     /// Whatever share a failed step is cut to, 0.7 being no power of the halves of the shortest, the attempts have an end.
     #[test]
     fn steps_that_never_converge_end() {
+        let model = cube();
+        for cut in [0.5, 0.7, 0.99] {
+            let control = StepControl {
+                cut,
+                shortest: 0.5,
+                ..StepControl::new(1.0, 1.0)
+            };
+            let end = end(&model, &control, Never(0, 0.0));
+            assert!(
+                matches!(end, Err(SolverError::NoConvergence { step, .. }) if step < 1.0),
+                "{end:?}"
+            );
+        }
+    }
+
+    /// A step that misses the criterion is flagged, but not one that moves by more than a tenth of the model, 2 mm.
+    #[test]
+    fn what_has_come_off_the_model_is_no_step() {
+        let model = cube();
+        let control = StepControl {
+            on_failure: OnFailure::Flag,
+            shortest: 0.5,
+            ..StepControl::new(0.5, 0.5)
+        };
+        for (way, refused) in [(0.19, false), (0.21, true)] {
+            let end = end(&model, &control, Never(0, way));
+            assert_eq!(end.is_err(), refused, "{end:?}");
+        }
+    }
+
+    /// An elastic cube of 2 mm.
+    fn cube() -> Model {
         let mut grid = GridBuilder::new();
         grid.add_box("cube", &[0.0, 2.0], &[0.0, 2.0], &[0.0, 2.0]);
         let mesh = grid.finish().unwrap();
@@ -531,23 +575,21 @@ mod tests {
         let nodes = std::array::from_fn(|a| a);
         let (rule, band) = (HexRule::Full, BandWidth::CubeRoot);
         let cube = Hex20::new(nodes, &hex20::NODES, rule, law, band).unwrap();
-        let model = Model::new(mesh, vec![Box::new(cube)]).unwrap();
-        for cut in [0.5, 0.7, 0.99] {
-            let mut state = StateStore::new(model.elements());
-            let start = vec![0.0; model.dofs().len()];
-            let conditions = Conditions::new(&model);
-            let mut stage = Stage::new(&model, conditions, &mut state, start).unwrap();
-            let control = StepControl {
-                cut,
-                shortest: 0.5,
-                ..StepControl::new(1.0, 1.0)
-            };
-            let end = control.run(&mut stage, &mut Never(0), &mut Silent);
-            assert!(
-                matches!(end, Err(SolverError::NoConvergence { step, .. }) if step < 1.0),
-                "{end:?}"
-            );
+        Model::new(mesh, vec![Box::new(cube)]).unwrap()
+    }
+
+    /// How a run with a driver that never arrives ends, on a model held at its first eight nodes.
+    fn end(model: &Model, control: &StepControl, mut driver: Never) -> Result<String, SolverError> {
+        let mut state = StateStore::new(model.elements());
+        let start = vec![0.0; model.dofs().len()];
+        let mut conditions = Conditions::new(model);
+        for node in 0..8 {
+            for dof in [Dof::Ux, Dof::Uy, Dof::Uz] {
+                conditions.fix(model, node, dof).unwrap();
+            }
         }
+        let mut stage = Stage::new(model, conditions, &mut state, start).unwrap();
+        control.run(&mut stage, &mut driver, &mut Silent)
     }
 
     #[test]
