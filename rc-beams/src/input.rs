@@ -46,10 +46,12 @@ pub enum InputError {
         source: io::Error,
     },
     /// A file that holds no text.
-    #[error("{}, line {line}: byte {byte} of the file is not UTF-8 text", path.display())]
+    #[error("{}, line {line}: byte {byte} of the file is not UTF-8 text that can be shown", path.display())]
     #[diagnostic(
         code(rc_beams::text),
-        help("name a text file; if it is one, save it with the encoding UTF-8")
+        help(
+            "name a text file; if it is one, save it with the encoding UTF-8 and without control characters"
+        )
     )]
     NotText {
         /// The file.
@@ -140,15 +142,20 @@ pub(crate) fn read_file(path: &Path) -> Result<String, InputError> {
         path: path.into(),
         source,
     })?;
-    let mut text = String::from_utf8(bytes).map_err(|error| {
-        let good = error.utf8_error().valid_up_to();
-        let lines = error.as_bytes().iter().take(good).filter(|b| **b == b'\n');
+    let no_text = |bytes: &[u8], good: usize| {
+        let lines = bytes.iter().take(good).filter(|b| **b == b'\n');
         InputError::NotText {
             path: path.into(),
             line: 1 + lines.count(),
             byte: 1 + good,
         }
-    })?;
+    };
+    let mut text = String::from_utf8(bytes)
+        .map_err(|error| no_text(error.as_bytes(), error.utf8_error().valid_up_to()))?;
+    // Messages show the lines of the file: what would drive a terminal is kept from it.
+    if let Some(at) = text.find(|c: char| c.is_control() && !"\n\r\t".contains(c)) {
+        return Err(no_text(text.as_bytes(), at));
+    }
     if text.starts_with(BYTE_ORDER_MARK) {
         text.remove(0);
     }

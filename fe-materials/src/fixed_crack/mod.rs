@@ -195,13 +195,15 @@ impl FixedCrackParameters {
         if plasticity <= 1.0 {
             return Err(MaterialError::Parameter {
                 law: NAME,
-                parameter: "eps_c1",
-                value: self.eps_c1,
-                unit: "-",
-                allowed: format!("more than fcm/E = {:.5}", self.fcm_mpa / self.young_mpa),
+                parameter: "young_mpa",
+                value: self.young_mpa,
+                unit: "MPa",
+                allowed: format!(
+                    "({:.0}, inf), beyond fcm/eps_c1",
+                    self.fcm_mpa / self.eps_c1
+                ),
                 remedy:
-                    "the peak of the compression curve must lie beyond the elastic strain; raise \
-                         E or eps_c1, or lower fcm"
+                    "raise the modulus or the strain eps_c1 at the strength, or lower the strength"
                         .into(),
             });
         }

@@ -36,6 +36,12 @@ impl RonError {
         let parent = path.trim_end_matches('?');
         let (field, place, words) = if text.trim().is_empty() {
             ("", 0..0, Words::empty())
+        } else if error.code == Error::UnclosedBlockComment {
+            // The parser has looked for the end of it everywhere.
+            let begin = text.rfind("/*").unwrap_or(place.start);
+            ("", begin..begin + 2, Words::of(&error.code))
+        } else if text[place.start..].trim().is_empty() && expects_more(&error.code) {
+            ("", place, Words::of(&Error::Eof))
         } else {
             mistyped_number(text, place.start)
                 .or_else(|| mistyped_number(text, behind_comma(text, place.start)?))
@@ -49,16 +55,14 @@ impl RonError {
         Self::new(file, field.trim_matches('.'), words, place)
     }
 
-    /// From what is wrong with the value at `path`; shows the first line of it.
+    /// From what is wrong with the value at `path`.
     pub(super) fn found(
         file: &Arc<NamedSource<String>>,
         path: &str,
         what: String,
         help: Option<String>,
     ) -> Self {
-        let mut place = Places::of(file.inner()).find(path);
-        let value = file.inner().get(place.clone()).unwrap_or_default();
-        place.end = place.start + value.lines().next().unwrap_or_default().len();
+        let place = Places::of(file.inner()).find(path);
         Self::new(file, "", Words::new(what, "here", help), place)
     }
 
@@ -85,7 +89,7 @@ impl RonError {
             label,
             help,
             file: readable.then(|| Arc::clone(file)),
-            place: place.into(),
+            place: one_line(file.inner(), place).into(),
         }
     }
 }
@@ -152,6 +156,16 @@ impl Words {
                 "here",
                 Some("write `(field: value, ...)`".into()),
             ),
+            Error::UnclosedBlockComment => Self::new(
+                "a comment without an end",
+                "begins here",
+                Some("end it with */".into()),
+            ),
+            Error::ExpectedStringEnd => Self::new(
+                "a text without an end",
+                "begins here",
+                Some("end it with a quotation mark".into()),
+            ),
             Error::Eof => Self::new(
                 "the text ends too early",
                 "here",
@@ -213,6 +227,23 @@ fn behind_comma(text: &str, at: usize) -> Option<usize> {
     let tail = rest.strip_prefix(',')?;
     let decimals = tail.starts_with(|c: char| c.is_ascii_digit());
     (decimals && before.trim_end().ends_with(':')).then(|| text.len() - tail.len())
+}
+
+/// Whether the parser has asked for what may have been cut off.
+const fn expects_more(error: &Error) -> bool {
+    matches!(
+        error,
+        Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_)
+    )
+}
+
+/// The first line of a place; its end, where there is nothing but blanks before.
+fn one_line(text: &str, place: Range<usize>) -> Range<usize> {
+    let shown = text.get(place.clone()).unwrap_or_default();
+    if shown.trim().is_empty() && !text[place.end..].trim().is_empty() {
+        return place.end..place.end;
+    }
+    place.start..place.start + shown.lines().next().unwrap_or_default().len()
 }
 
 /// Name of the file with line and column of a byte, counted from 1.

@@ -102,6 +102,16 @@ const CASES: &[Case] = &[
             "a plate of 100 mm lies on the beam",
         ],
     ),
+    // Softer than the strength and the strain there allow.
+    (
+        "young_mpa: 25000",
+        "young_mpa: 6000",
+        "6000",
+        &[
+            "concrete.young_mpa: 6000 MPa is too soft for this strength; allowed: (13",
+            "give the modulus at the origin",
+        ],
+    ),
     // Unknown field.
     (
         "reported_strength_mpa: 27.5",
@@ -706,13 +716,25 @@ fn files_that_are_no_specimens_are_refused_and_a_byte_order_mark_is_not() {
     let count = BEAM.replacen("count_in_half: 1", "count_in_half: 5000000000", 1);
     let none = BEAM.replacen("count_in_half: 1", "count_in_half: 0", 1);
     let twice = format!("{BEAM}{BEAM}");
-    let cases: [(&[u8], &str); 8] = [
+    let open = BEAM.replacen("bars: [", "/* bars: [", 1);
+    let (first_bar, _) = BEAM.split_once("\n        ),\n        (").unwrap();
+    let cut = format!("{first_bar}\n        ),\n    ");
+    let open_text = format!("{cut}    (name: \"");
+    let cases: [(&[u8], &str); 13] = [
         (b"", "the file is empty"),
         (b" \r\n\n", "the file is empty"),
         (
             b"(\n\"\xff",
             "x.ron, line 2: byte 4 of the file is not UTF-8 text",
         ),
+        (
+            b"(\n\"\x1b[31m",
+            "x.ron, line 2: byte 4 of the file is not UTF-8 text that can be shown",
+        ),
+        (b"(\0", "x.ron, line 1: byte 2 of the file"),
+        (open.as_bytes(), "a comment without an end ╭─[x.ron:26:5]"),
+        (cut.as_bytes(), "bars[1]: the text ends too early"),
+        (open_text.as_bytes(), "bars[1].name: a text without an end"),
         (
             long_line.as_bytes(),
             "x.ron:1:1: a group of fields in brackets is expected",
@@ -737,6 +759,15 @@ fn files_that_are_no_specimens_are_refused_and_a_byte_order_mark_is_not() {
         assert!(
             message.contains(words),
             "{words:?} is missing in:\n{message}"
+        );
+        let shown = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(
+            shown.lines().count() < 15,
+            "one place is shown, no more: {shown}"
+        );
+        assert!(
+            !shown.contains(|c: char| c.is_control() && c != '\n'),
+            "{shown:?}"
         );
         assert!(!folder.path().join("results").exists());
     }

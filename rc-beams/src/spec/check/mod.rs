@@ -7,6 +7,10 @@ mod supports;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 
+use fe_core::material::MaterialError;
+use fe_materials::concrete::ConcreteScalars;
+use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
+
 use super::specimen::Specimen;
 use crate::column::slug;
 
@@ -36,6 +40,7 @@ pub fn check(specimen: &Specimen) -> Vec<Finding> {
         findings: Vec::new(),
     };
     checks.name();
+    checks.concrete();
     checks.reinforcement();
     checks.supports();
     checks.sheets();
@@ -124,6 +129,29 @@ impl Checks<'_> {
 
     fn half_width(&self) -> f64 {
         self.specimen.half_width_mm()
+    }
+
+    /// The concrete is stiffer than the secant to its strength.
+    fn concrete(&mut self) {
+        let concrete = &self.specimen.concrete;
+        let Ok(mean) = ConcreteScalars::from_mean(concrete.reported_strength_mpa.get()) else {
+            return;
+        };
+        let young = concrete.young_mpa.get();
+        let law = FixedCrackParameters::from_strength(mean.fcm_mpa, mean.fctm_mpa, young);
+        if let Err(MaterialError::Parameter {
+            parameter: "young_mpa",
+            value,
+            allowed,
+            ..
+        }) = FixedCrack::new(law, None)
+        {
+            self.report(
+                "concrete.young_mpa",
+                format!("{value} MPa is too soft for this strength; allowed: {allowed}"),
+                "give the modulus at the origin, not a secant, or a lower strength",
+            );
+        }
     }
 
     /// The name is that of a folder.
