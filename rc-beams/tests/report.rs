@@ -71,6 +71,22 @@ fn a_damaged_beam_is_a_warning_with_a_code_and_the_rest_is_reported() {
     );
 }
 
+/// Target: who names the folder of a beam learns which one to name.
+#[test]
+fn the_folder_of_one_beam_is_told_from_one_of_beams() {
+    let root = tempfile::tempdir().unwrap();
+    store(root.path(), "X-1");
+    for (from, folder, around) in [("", "X-1", "."), ("X-1", ".", "./.."), ("", "./X-1", ".")] {
+        let output = report(&root.path().join(from), &[folder]);
+        assert_eq!(output.status.code(), Some(4));
+        let message = String::from_utf8(output.stderr).unwrap();
+        let what = format!("{folder} holds the results of one beam");
+        for words in [what, format!("`rc-beams report {around}`")] {
+            assert!(message.contains(&words), "{words}: {message}");
+        }
+    }
+}
+
 #[test]
 fn a_folder_without_results_is_an_error_with_a_remedy() {
     let root = tempfile::tempdir().unwrap();

@@ -42,9 +42,23 @@ pub enum ReportError {
     #[error("there are no results in {}", path.display())]
     #[diagnostic(
         code(rc_beams::report),
-        help("run beams first, for instance `rc-beams run all --output {}`", path.display())
+        help(
+            "give the folder in which those of the beams lie, or run beams first, for instance `rc-beams run all \
+             --output {}`",
+            path.display()
+        )
     )]
     Nothing {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The folder is that of one beam.
+    #[error("{} holds the results of one beam", path.display())]
+    #[diagnostic(
+        code(rc_beams::report),
+        help("give the folder in which it lies: `rc-beams report {}`", above(path).display())
+    )]
+    OneBeam {
         /// The folder.
         path: PathBuf,
     },
@@ -162,7 +176,12 @@ pub fn write(root: &Path) -> Result<Report, ReportError> {
         source,
     })?;
     if folders.is_empty() {
-        return Err(ReportError::Nothing { path: root.into() });
+        let path = root.into();
+        return Err(if stored::holds_results(root) {
+            ReportError::OneBeam { path }
+        } else {
+            ReportError::Nothing { path }
+        });
     }
     for path in folders {
         let (beam, wrong) = stored::read(&path);
@@ -187,6 +206,15 @@ pub fn write(root: &Path) -> Result<Report, ReportError> {
     folder.replace("report.md", |out| out.write_all(text.as_bytes()))?;
     folder.replace("report.csv", |out| table::write(out, &beams))?;
     Ok(report)
+}
+
+/// The folder that a folder lies in.
+fn above(folder: &Path) -> PathBuf {
+    match (folder.file_name(), folder.parent()) {
+        (Some(_), Some(parent)) if parent.as_os_str().is_empty() => ".".into(),
+        (Some(_), Some(parent)) => parent.into(),
+        _ => folder.join(".."),
+    }
 }
 
 /// Whether a file is there.

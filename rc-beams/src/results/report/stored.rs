@@ -98,15 +98,19 @@ pub(super) fn folders(root: &Path) -> io::Result<Vec<PathBuf>> {
     let mut folders = Vec::new();
     for entry in fs::read_dir(root)? {
         let path = entry?.path();
-        if ["summary.json", "history.csv"]
-            .iter()
-            .any(|file| exists(&path.join(file)))
-        {
+        if holds_results(&path) {
             folders.push(path);
         }
     }
     folders.sort();
     Ok(folders)
+}
+
+/// Whether a folder holds the results of a beam.
+pub(super) fn holds_results(folder: &Path) -> bool {
+    ["summary.json", "history.csv"]
+        .iter()
+        .any(|file| exists(&folder.join(file)))
 }
 
 /// Reads a folder; also what is wrong with it. Without a summary there is no beam.
