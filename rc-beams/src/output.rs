@@ -8,12 +8,21 @@ use miette::Diagnostic;
 /// A file or folder that cannot be written.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[error("cannot write {}", path.display())]
-#[diagnostic(code(rc_beams::output), help("choose another place with --output"))]
+#[diagnostic(code(rc_beams::output), help("{}", remedy(source)))]
 pub struct OutputError {
     /// The file or folder.
     pub path: PathBuf,
     /// Why.
     pub source: io::Error,
+}
+
+fn remedy(source: &io::Error) -> &'static str {
+    match source.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            "make room, and go on with --resume where a run had begun, or choose another place with --output"
+        }
+        _ => "choose another place with --output",
+    }
 }
 
 /// Makes the folder if it is missing and makes sure that files can be written into it.

@@ -246,6 +246,60 @@ fn an_interrupted_band_is_told() {
     assert!(summary(folder.path())["numerical_error"]["error_bar"].is_number());
 }
 
+/// Target: where no more can be written, as on a full disk, the cause is told and what goes on from there; beams not yet started
+/// are told too.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_is_told_with_its_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = "trap '' XFSZ; ulimit -f 60; exec \"$0\" run A-SO3-1 A-SW3-1 --mesh 48x4 --fields all --threads 1 -o \"$1\"";
+    let output = Command::new("sh")
+        .args(["-c", script, env!("CARGO_BIN_EXE_rc-beams")])
+        .arg(folder.path())
+        .output()
+        .unwrap();
+    let results = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(4), "{results}");
+    for words in [
+        "File too large",
+        "--resume goes on from there",
+        "A-SW3-1   not started",
+    ] {
+        assert!(results.contains(words), "{words}: {results}");
+    }
+}
+
+/// Target: a beam that breaks under its own weight stops no other, and is told.
+#[test]
+fn a_beam_that_cannot_carry_itself_stops_no_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let weak = include_str!("../specimens/A-SO3-1.ron")
+        .replace("\"A-SO3-1\"", "\"weak\"")
+        .replace("length_mm: 3050,", "length_mm: 20000,")
+        .replace("x_mm: 2440,", "x_mm: 19700,")
+        .replace("x_to_mm: 3050,", "x_to_mm: 20000,")
+        .replace("diameter_mm: 32,", "diameter_mm: 3,")
+        .replace("area_mm2: 804.25,", "area_mm2: 7,");
+    let file = folder.path().join("weak.ron");
+    fs::write(&file, weak).unwrap();
+    let arguments = [
+        file.to_str().unwrap(),
+        "A-SO3-1",
+        "--mesh",
+        "16x2",
+        "--until",
+        "0.2",
+        "--threads",
+        "1",
+    ];
+    let output = run(folder.path(), &arguments);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    assert!(told.contains("weak: under its own weight"), "{told}");
+    let results = String::from_utf8_lossy(&output.stdout);
+    assert!(results.contains("A-SO3-1   peak"), "{results}");
+}
+
 /// Modified Newton-Raphson and the reference law serve the same command.
 #[test]
 fn other_drivers_and_laws_run() {

@@ -66,6 +66,11 @@ impl Board {
         }
     }
 
+    /// Says on standard error what stops a beam.
+    pub fn tell(&self, text: &str) {
+        self.bars.suspend(|| say(text));
+    }
+
     /// Whether a result could not be printed.
     pub fn has_lost(&self) -> bool {
         self.lost.load(Ordering::Relaxed)

@@ -1,10 +1,14 @@
 //! What a reader of the answer should know: where the model is not what was asked for, or more than the beam is.
 
 use crate::results::evidence::Snapshot;
+use crate::results::summary::Energy;
 use crate::spec::Specimen;
 
 /// Share of all loads below which a pull is no matter.
 const PULLS: f64 = 0.02;
+
+/// Share of the external work up to which the energies may miss it.
+const CLOSURE: f64 = 0.01;
 
 /// Slack (mm) of the place of a node.
 const SAME_PLACE_MM: f64 = 0.1;
@@ -37,6 +41,15 @@ pub(super) fn pulls(share: f64) -> Option<String> {
     })
 }
 
+/// What is said where the energies of the path do not add up to the work of the loads.
+pub(super) fn unbalanced(energy: &Energy) -> Option<String> {
+    let missed = energy.closure.map(f64::abs).filter(|c| *c > CLOSURE)?;
+    Some(format!(
+        "the energies of the whole path miss the external work by {:.0} %, in steps without equilibrium (history.csv)",
+        100.0 * missed
+    ))
+}
+
 /// What is said of bars that carry more than their rupture stress.
 pub(super) fn broken(specimen: &Specimen, at: &Snapshot) -> Vec<String> {
     let bars = at.bars.iter().filter_map(|reach| {
@@ -62,6 +75,7 @@ mod tests {
     //! Protects the warnings from silence and from noise.
     use super::*;
     use crate::results::evidence::BarReach;
+    use crate::results::summary::PartEnergy;
     use crate::spec::{BUILTIN, read};
 
     fn specimen() -> Specimen {
@@ -73,6 +87,21 @@ mod tests {
     fn only_pulls_that_matter_are_told() {
         assert_eq!(pulls(0.01), None);
         assert!(pulls(0.2).unwrap().contains("by 20 % of all loads"));
+    }
+
+    #[test]
+    fn energies_that_do_not_add_up_are_told() {
+        let energy = |external| {
+            let part = PartEnergy {
+                work_j: 100.0,
+                ..PartEnergy::default()
+            };
+            Energy::new(external, [("bars".to_owned(), part)].into())
+        };
+        assert_eq!(unbalanced(&energy(100.5)), None);
+        assert_eq!(unbalanced(&energy(0.0)), None);
+        let text = unbalanced(&energy(40.0)).unwrap();
+        assert!(text.contains("external work by 150 %"), "{text}");
     }
 
     #[test]

@@ -19,6 +19,7 @@ use std::time::Instant;
 
 use fe_solver::capacity::{Capacity, Verdict};
 use fe_solver::error::SolverError;
+use miette::Report;
 
 use crate::analysis::{AnalysisError, Outcome, Staging, analyse};
 use crate::build::{Beam, ModelSettings};
@@ -37,7 +38,7 @@ use crate::results::resources::Resources;
 use crate::results::sheets::{MapState, SheetDrop};
 use crate::results::summary::{Figures, Summary, WallTime, Work};
 use crate::spec::Specimen;
-use caveats::{broken, pulls, read_elsewhere};
+use caveats::{broken, pulls, read_elsewhere, unbalanced};
 pub(crate) use conflicts::warnings;
 pub use error::RunError;
 use plan::{driver, input_hash, settings, setup, stepping};
@@ -46,11 +47,12 @@ use resume::Beginning;
 use watch::Watch;
 
 /// Runs the specimens, as many at once as there are threads. All models are built and all folders tried before the
-/// first one runs. Of several at once the largest models begin, so that no thread waits long for the last.
+/// first one runs. Of several at once the largest models begin, so that no thread waits long for the last. What stops one of
+/// them is told at once, and the others go on, unless their results could not be written either.
 ///
 /// # Errors
 ///
-/// [`RunError`]; the results of the beams before are kept.
+/// [`RunError`], before the first one runs.
 pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, RunError> {
     let interrupt = Interrupt::install()?;
     let mut queue = Vec::new();
@@ -76,8 +78,13 @@ pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, Run
     }
     let board = Board::new();
     let (exit, left) = queue::run(&workers, &queue, |(_, specimen), worker| {
-        run(specimen, options, (&interrupt, &board, &worker.threads))
-    })?;
+        let done = run(specimen, options, (&interrupt, &board, &worker.threads));
+        done.unwrap_or_else(|error| {
+            let exit = error.exit();
+            board.tell(&format!("{:?}", Report::new(error)));
+            exit
+        })
+    });
     for (_, specimen) in left {
         board.print_result(&format!("{:<8}  not started", specimen.name));
     }
@@ -187,7 +194,16 @@ fn run(
     let beam = outcome.ended_on.as_ref().unwrap_or(&beam);
     let peak = outcome.peak.iter().filter(|peak| **peak != outcome.last);
     let states: Vec<_> = peak.chain([&outcome.last]).collect();
-    let writing = recording.finish(&beam.model, &states)?;
+    let (stop_reason, exit) = end(&outcome, interrupt);
+    let kept = kept(&stop_reason, exit, &folder);
+    let writing = match recording.finish(&beam.model, &states) {
+        // Where nothing could be written before, that is the cause.
+        Err(_) if exit == Exit::File => {
+            board.print_result(&format!("{:<8}  {kept}", specimen.name));
+            return Ok(exit);
+        }
+        finished => finished?,
+    };
     let watch = recording.watch();
     let mut wall = WallTime {
         output: writing.as_secs_f64(),
@@ -198,8 +214,6 @@ fn run(
         work.add(counters);
         wall.add(times);
     }
-    let (stop_reason, exit) = end(&outcome, interrupt);
-    let kept = kept(&stop_reason, exit, &folder);
     let capacity = Capacity::of(&outcome.path);
     let reached = capacity.filter(Capacity::is_reached);
     let mut missing = Vec::new();
@@ -326,6 +340,7 @@ fn run(
     } else if options.band && summary.numerical_error.is_none() && missing.is_empty() {
         missing.push("no error bar, for not all paths go beyond a peak".into());
     }
+    missing.extend(summary.energy.as_ref().and_then(unbalanced));
     for text in missing {
         line = format!("{line}  {text}");
     }
@@ -389,6 +404,7 @@ fn kept(reason: &str, exit: Exit, folder: &Folder) -> String {
     let path = folder.path().display();
     let remedy = match exit {
         Exit::Interrupted => "; --resume goes on from there",
+        Exit::File => "; make room there, and --resume goes on from there",
         _ => "",
     };
     format!("{reason}; the results up to the last accepted step are in {path}{remedy}")

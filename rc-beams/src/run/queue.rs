@@ -39,30 +39,26 @@ pub(super) fn workers(beams: usize, threads: usize) -> Result<Vec<Worker>, RunEr
         .collect()
 }
 
-/// Runs every item, in order of the queue; after an error or an interruption no other is started. The gravest
-/// exit and the items that were not started, or the first error.
+/// Runs every item, in order of the queue; after one that could not be written, or an interruption, no other is started. The
+/// gravest exit and the items that were not started.
 pub(super) fn run<'t, T: Sync>(
     workers: &[Worker],
     items: &'t [T],
-    job: impl Fn(&T, &Worker) -> Result<Exit, RunError> + Sync,
-) -> Result<(Exit, &'t [T]), RunError> {
-    let state = Mutex::new((items.iter(), Ok(Exit::Done)));
+    job: impl Fn(&T, &Worker) -> Exit + Sync,
+) -> (Exit, &'t [T]) {
+    let state = Mutex::new((items.iter(), Exit::Done));
     let next = || {
         let mut guard = state
             .lock()
             .unwrap_or_else(std::sync::PoisonError::into_inner);
-        let stopped = matches!(guard.1, Err(_) | Ok(Exit::Interrupted));
+        let stopped = matches!(guard.1, Exit::File | Exit::Interrupted);
         if stopped { None } else { guard.0.next() }
     };
-    let done = |result: Result<Exit, RunError>| {
+    let done = |exit: Exit| {
         let mut guard = state
             .lock()
             .unwrap_or_else(std::sync::PoisonError::into_inner);
-        match (&mut guard.1, result) {
-            (Err(_), _) => {}
-            (gravest, Err(error)) => *gravest = Err(error),
-            (Ok(gravest), Ok(exit)) => *gravest = (*gravest).max(exit),
-        }
+        guard.1 = guard.1.max(exit);
     };
     thread::scope(|scope| {
         for worker in workers {
@@ -73,10 +69,10 @@ pub(super) fn run<'t, T: Sync>(
             });
         }
     });
-    let (left, result) = state
+    let (left, gravest) = state
         .into_inner()
         .unwrap_or_else(std::sync::PoisonError::into_inner);
-    Ok((result?, left.as_slice()))
+    (gravest, left.as_slice())
 }
 
 #[cfg(test)]
@@ -103,24 +99,25 @@ mod tests {
     #[test]
     fn every_item_is_run_once() {
         let items: Vec<AtomicUsize> = (0..20).map(|_| AtomicUsize::new(0)).collect();
-        let run = run(&workers(20, 2).unwrap(), &items, |item, _| {
+        let (exit, left) = run(&workers(20, 2).unwrap(), &items, |item, _| {
             item.fetch_add(1, Ordering::Relaxed);
-            Ok(Exit::StoppedEarly)
+            Exit::StoppedEarly
         });
-        let (exit, left) = run.unwrap();
         assert_eq!(exit, Exit::StoppedEarly);
         assert!(left.is_empty());
         assert!(items.iter().all(|n| n.load(Ordering::Relaxed) == 1));
     }
 
     #[test]
-    fn nothing_is_started_after_an_interruption() {
-        let begun = AtomicUsize::new(0);
-        let exit = run(&workers(1, 1).unwrap(), &[0, 1, 2], |_, _| {
-            begun.fetch_add(1, Ordering::Relaxed);
-            Ok(Exit::Interrupted)
-        });
-        assert_eq!(exit.unwrap(), (Exit::Interrupted, &[1, 2][..]));
-        assert_eq!(begun.load(Ordering::Relaxed), 1);
+    fn nothing_is_started_after_an_interruption_or_on_a_full_disk() {
+        for end in [Exit::Interrupted, Exit::File] {
+            let begun = AtomicUsize::new(0);
+            let run = run(&workers(1, 1).unwrap(), &[0, 1, 2], |_, _| {
+                begun.fetch_add(1, Ordering::Relaxed);
+                end
+            });
+            assert_eq!(run, (end, &[1, 2][..]));
+            assert_eq!(begun.load(Ordering::Relaxed), 1);
+        }
     }
 }

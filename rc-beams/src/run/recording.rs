@@ -187,9 +187,14 @@ fn series(folder: &Folder) -> Result<FieldSeries, ResultsError> {
 
 /// Fields that cannot be written.
 fn refused(folder: &Folder, source: fe_core::output::OutputError) -> ResultsError {
+    use fe_core::output::OutputError::Io;
+    let kind = match &source {
+        Io { source, .. } => source.kind(),
+        _ => io::ErrorKind::Other,
+    };
     ResultsError::Output(OutputError {
         path: folder.path().join("fields.pvd"),
-        source: io::Error::other(source),
+        source: io::Error::new(kind, source),
     })
 }
 
