@@ -1,4 +1,4 @@
-//! Conformance checks for everybody who writes a law or an element.
+//! Conformance checks for everybody who writes a law or an element, and findings of tests.
 //!
 //! [`check_material`], [`check_isotropy`] and [`check_element`] drive random but reproducible paths and
 //! hold the answers against the contracts of [`Material`](crate::material::Material) and
@@ -35,11 +35,21 @@
 //! assert!(report.worst_tangent < 1e-9);
 //! # Ok::<(), fe_core::testing::CheckFailure>(())
 //! ```
+//!
+//! [`within`], [`within_share`], [`between`], [`below`], [`counted`] and [`Worst`] hold what a test found against its target and
+//! print both on one line of a fixed form; [`curve`] prints points. The verification manual is written from these lines.
+//!
+//! ```
+//! use fe_core::testing::within;
+//!
+//! within("circumference of the unit circle", std::f64::consts::TAU, 6.283, 5e-4);
+//! ```
 
 mod difference;
 mod drive;
 mod element;
 mod failure;
+mod finding;
 mod isotropy;
 mod material;
 mod path;
@@ -49,10 +59,13 @@ mod rigid;
 mod settings;
 mod together;
 mod walk;
+mod worst;
 
 pub use element::check_element;
 pub use failure::{CheckFailure, Place};
+pub use finding::{below, between, counted, curve, within, within_share};
 pub use isotropy::{IsotropyReport, check_isotropy};
 pub use material::check_material;
 pub use random::Random;
 pub use settings::{ElementCheck, ElementReport, MaterialCheck, MaterialReport};
+pub use worst::Worst;
