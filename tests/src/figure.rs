@@ -25,15 +25,62 @@ pub struct Series {
     pub marks: Vec<[f64; 2]>,
 }
 
-/// One chart with both axes from zero.
+/// An axis.
+#[derive(Debug, Clone)]
+pub struct Axis {
+    /// Name and unit.
+    pub name: String,
+    /// First and last value.
+    pub ends: [f64; 2],
+    /// Distance of its ticks.
+    pub tick: f64,
+}
+
+impl Axis {
+    /// An axis from zero to its end.
+    pub fn from_zero(name: &str, end: f64, tick: f64) -> Self {
+        Self::new(name, [0.0, end], tick)
+    }
+
+    /// An axis between its ends.
+    pub fn new(name: &str, ends: [f64; 2], tick: f64) -> Self {
+        Self {
+            name: name.into(),
+            ends,
+            tick,
+        }
+    }
+
+    /// Where a value is, from 0 at the first to 1 at the last.
+    fn share(&self, value: f64) -> f64 {
+        let [first, last] = self.ends;
+        (value - first) / (last - first)
+    }
+
+    /// Values with a tick, and their text.
+    fn ticks(&self) -> impl Iterator<Item = (f64, String)> {
+        let [first, last] = self.ends;
+        let decimals = (-self.tick.log10()).ceil().max(1.0) as usize;
+        let count = ((last - first) / self.tick).round() as usize;
+        (0..=count).map(move |i| {
+            // Added to zero, no zero is negative.
+            let value = ((first / self.tick).round() + i as f64) * self.tick + 0.0;
+            (value, format!("{value:.decimals$}"))
+        })
+    }
+}
+
+/// One chart.
 #[derive(Debug, Clone)]
 pub struct Chart {
     /// Title.
     pub title: String,
-    /// Name and unit of the horizontal axis, its end and the distance of its ticks.
-    pub x: (String, f64, f64),
-    /// Name and unit of the vertical axis, its end and the distance of its ticks.
-    pub y: (String, f64, f64),
+    /// Horizontal axis.
+    pub x: Axis,
+    /// Vertical axis.
+    pub y: Axis,
+    /// Place of the first line of the legend, on the axes; at the foot of the middle if there is none.
+    pub legend: Option<[f64; 2]>,
     /// What is drawn.
     pub series: Vec<Series>,
 }
@@ -41,34 +88,34 @@ pub struct Chart {
 impl Chart {
     fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let (w, h) = (WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM);
-        [LEFT + x / self.x.1 * w, HEIGHT - BOTTOM - y / self.y.1 * h]
+        let (x, y) = (self.x.share(x), self.y.share(y));
+        [LEFT + x * w, HEIGHT - BOTTOM - y * h]
     }
 
     fn draw(&self, out: &mut String) -> std::fmt::Result {
-        let [left, bottom] = self.place([0.0, 0.0]);
-        let [right, top] = self.place([self.x.1, self.y.1]);
+        let [[x0, x1], [y0, y1]] = [self.x.ends, self.y.ends];
+        let [left, bottom] = self.place([x0, y0]);
+        let [right, top] = self.place([x1, y1]);
         let middle = 0.5 * (left + right);
         writeln!(
             out,
             r#"<text x="{middle}" y="24" class="title">{}</text>"#,
             self.title
         )?;
-        for i in 0..=(self.x.1 / self.x.2).round() as usize {
-            let value = i as f64 * self.x.2;
-            let [x, _] = self.place([value, 0.0]);
+        for (value, text) in self.x.ticks() {
+            let [x, _] = self.place([value, y0]);
             writeln!(
                 out,
                 r#"<path d="M{x:.1} {bottom:.1}V{top:.1}" class="grid"/>"#
             )?;
             writeln!(
                 out,
-                r#"<text x="{x:.1}" y="{:.1}">{value:.1}</text>"#,
+                r#"<text x="{x:.1}" y="{:.1}">{text}</text>"#,
                 bottom + 16.0
             )?;
         }
-        for i in 0..=(self.y.1 / self.y.2).round() as usize {
-            let value = i as f64 * self.y.2;
-            let [_, y] = self.place([0.0, value]);
+        for (value, text) in self.y.ticks() {
+            let [_, y] = self.place([x0, value]);
             writeln!(
                 out,
                 r#"<path d="M{left:.1} {y:.1}H{right:.1}" class="grid"/>"#
@@ -76,19 +123,19 @@ impl Chart {
             let (x, y) = (left - 6.0, y + 4.0);
             writeln!(
                 out,
-                r#"<text x="{x:.1}" y="{y:.1}" class="left">{value:.1}</text>"#
+                r#"<text x="{x:.1}" y="{y:.1}" class="left">{text}</text>"#
             )?;
         }
         let (below, height) = (bottom + 36.0, 0.5 * (top + bottom));
         writeln!(
             out,
             r#"<text x="{middle}" y="{below:.1}">{}</text>"#,
-            self.x.0
+            self.x.name
         )?;
         writeln!(
             out,
             r#"<text transform="translate(14 {height:.1}) rotate(-90)">{}</text>"#,
-            self.y.0
+            self.y.name
         )?;
         for (row, series) in self.series.iter().enumerate() {
             let colour = COLOURS[series.style % COLOURS.len()];
@@ -101,9 +148,21 @@ impl Chart {
             for &point in &series.marks {
                 mark(out, self.place(point), series.style, colour)?;
             }
-            let y = HEIGHT - BOTTOM - 18.0 * (self.series.len() - row) as f64;
-            mark(out, [middle - 40.0, y], series.style, colour)?;
-            let (x, y) = (middle - 28.0, y + 4.0);
+            let foot = HEIGHT - BOTTOM - 18.0 * self.series.len() as f64;
+            let [x, y] = self
+                .legend
+                .map_or([middle - 40.0, foot], |at| self.place(at));
+            let y = y + 18.0 * row as f64;
+            if series.marks.is_empty() {
+                writeln!(
+                    out,
+                    r#"<path d="M{:.1} {y:.1}h16" stroke="{colour}"/>"#,
+                    x - 8.0
+                )?;
+            } else {
+                mark(out, [x, y], series.style, colour)?;
+            }
+            let (x, y) = (x + 12.0, y + 4.0);
             writeln!(
                 out,
                 r#"<text x="{x:.1}" y="{y:.1}" class="right">{}</text>"#,

@@ -3,7 +3,7 @@
 use super::cases::{Case, DEFAULT, KINDS, MOTION, NUMERICS};
 use super::outcome::Outcome;
 use super::tables::{Outcomes, fixed, header, mean, row};
-use crate::figure::{Chart, Series, svg};
+use crate::figure::{Axis, Chart, Series, svg};
 
 /// One way to compute the beams of each kind.
 struct Cost {
@@ -98,8 +98,9 @@ pub fn chart(outcomes: &Outcomes) -> Result<String, std::fmt::Error> {
     });
     let chart = Chart {
         title: "A-SO3-1, A-SW3-1, A-SO3-2, A-SW3-2".into(),
-        x: ("DOFs times evaluations, 10^6".into(), 200.0, 50.0),
-        y: ("mean error against the tests, %".into(), 12.0, 2.0),
+        x: Axis::from_zero("DOFs times evaluations, 10^6", 200.0, 50.0),
+        y: Axis::from_zero("mean error against the tests, %", 12.0, 2.0),
+        legend: None,
         series: series.collect(),
     };
     svg(

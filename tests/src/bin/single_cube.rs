@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use fe_tests::cube::{Failure, cases, curve};
-use fe_tests::figure::{Chart, Series, svg};
+use fe_tests::figure::{Axis, Chart, Series, svg};
 
 const COMMAND: &str = "cargo run --release -p fe-tests --bin single-cube";
 const COMPRESSION: f64 = 3.5e-3;
@@ -44,14 +44,16 @@ fn main() -> Result<(), Failure> {
     let charts = [
         Chart {
             title: "Compression".into(),
-            x: ("strain (permille)".into(), 3.5, 0.5),
-            y: ("stress (MPa)".into(), 40.0, 10.0),
+            x: Axis::from_zero("strain (permille)", 3.5, 0.5),
+            y: Axis::from_zero("stress (MPa)", 40.0, 10.0),
+            legend: None,
             series: compression,
         },
         Chart {
             title: "Tension".into(),
-            x: ("strain (permille)".into(), 2.0, 0.5),
-            y: ("stress (MPa)".into(), 3.0, 0.5),
+            x: Axis::from_zero("strain (permille)", 2.0, 0.5),
+            y: Axis::from_zero("stress (MPa)", 3.0, 0.5),
+            legend: None,
             series: tension,
         },
     ];
