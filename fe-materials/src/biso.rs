@@ -217,12 +217,17 @@ impl Material<Axial> for Biso {
 mod tests {
     //! Protects the bars of the beams: the two kinds of hardening, and what ET means.
     use approx::assert_abs_diff_eq;
-    use fe_core::testing::{MaterialCheck, check_material};
+    use fe_core::testing::{MaterialCheck, check_material, curve, within};
 
     use super::*;
 
     /// Stress at the turning points of a strain path, and the work done.
     fn drive(law: &Biso, path: &[f64]) -> (Vec<f64>, f64) {
+        follow(law, path, |_, _| {})
+    }
+
+    /// The same; every strain and stress is shown.
+    fn follow(law: &Biso, path: &[f64], mut see: impl FnMut(f64, f64)) -> (Vec<f64>, f64) {
         let steps = 4000;
         let (mut state, mut trial) = ([0.0; 2], [0.0; 2]);
         let (mut stresses, mut work) = (Vec::new(), 0.0);
@@ -241,6 +246,7 @@ mod tests {
                     .unwrap();
                 work += 0.5 * (stress + response.stress[0]) * increment;
                 stress = response.stress[0];
+                see(strain, stress);
                 state = trial;
             }
             stresses.push(stress);
@@ -253,18 +259,25 @@ mod tests {
     #[test]
     fn cycle_of_both_kinds_of_hardening() {
         let bar = Biso::hot_rolled(200e3, 460.0, 2e3).unwrap();
-        assert_abs_diff_eq!(bar.plastic_modulus(), 2020.202, epsilon = 5e-4);
+        let modulus = bar.plastic_modulus();
+        within("MAT-06: plastic modulus (MPa)", modulus, 2020.202, 5e-4);
         let cases = [
             (Hardening::Kinematic, [475.4, -475.4, 455.4], 13.5026),
             (Hardening::Isotropic, [475.4, -505.892, 515.774], 14.1347),
         ];
         for (hardening, targets, work) in cases {
             let law = bar.with_hardening(hardening);
-            let (stresses, done) = drive(&law, &[0.01, -0.01, 0.0]);
-            for (stress, target) in stresses.iter().zip(targets) {
-                assert_abs_diff_eq!(*stress, target, epsilon = 5e-4);
+            let mut cycle = vec![[0.0; 2]];
+            let see = |strain, stress| cycle.push([1e3 * strain, stress]);
+            let (stresses, done) = follow(&law, &[0.01, -0.01, 0.0], see);
+            for (i, (stress, target)) in stresses.iter().zip(targets).enumerate() {
+                let what = format!("MAT-06: stress at turn {} (MPa), {hardening:?}", i + 1);
+                within(&what, *stress, target, 5e-4);
             }
-            assert_abs_diff_eq!(done, work, epsilon = 5e-5);
+            let what = format!("MAT-06: work (N mm/mm3), {hardening:?}");
+            within(&what, done, work, 5e-5);
+            let name = format!("cycle, {hardening:?}");
+            curve(&name, cycle.into_iter().step_by(40));
             // Backward Euler is exact for a step of one direction.
             let one_step = law
                 .update(

@@ -4,7 +4,7 @@ use approx::{assert_abs_diff_eq, assert_relative_eq};
 use fe_core::kinematics::Solid;
 use fe_core::material::{Material, Operator, PointContext};
 use fe_core::point::{Control, PointDriver, PointSettings, Segment};
-use fe_core::testing::{MaterialCheck, check_isotropy, check_material};
+use fe_core::testing::{MaterialCheck, Worst, check_isotropy, check_material};
 use fe_core::voigt::{isotropic, principal, stress_tensor};
 use fe_materials::concrete::{Associated, CompressionCurve, ConcreteScalars, Isochoric, Ottosen};
 use nalgebra::{Vector3, Vector6};
@@ -67,10 +67,17 @@ impl Case {
     }
 }
 
-/// Repeatability, tangent against differences to 1e-6, positive-definite secant, non-negative dissipation
+/// Benchmark MAT-04: repeatability, tangent against differences to 1e-6, positive-definite secant, non-negative dissipation
 /// and isotropy on 10^4 random steps of each law.
 #[test]
 fn contract() {
+    let mut tangent = Worst::new("MAT-04: plastic laws, tangent against differences", 1e-6);
+    let mut drift = Worst::new("MAT-04: plastic laws, change by a zero increment", 1e-10);
+    let mut created = Worst::new("MAT-04: plastic laws, energy created (N mm/mm3)", 1e-12);
+    let mut turned = Worst::new(
+        "MAT-04: plastic laws, anisotropy over the largest stress",
+        2e-12,
+    );
     for fck in [12.0, 50.0] {
         for Case { law, .. } in Case::all(fck) {
             for amplitude in [3e-4, 3e-3] {
@@ -81,10 +88,16 @@ fn contract() {
                     ..MaterialCheck::new(amplitude)
                 };
                 let report = check_material(&*law, &check).unwrap();
-                assert!(report.least_dissipation.is_some());
-                check_isotropy(&*law, &check).unwrap();
+                let place = (fck, amplitude);
+                tangent.see(report.worst_tangent, place);
+                drift.see(report.worst_drift, place);
+                created.see((-report.least_dissipation.unwrap()).max(0.0), place);
+                turned.see(check_isotropy(&*law, &check).unwrap().worst, place);
             }
         }
+    }
+    for worst in [tangent, drift, created, turned] {
+        worst.tell();
     }
 }
 
@@ -157,6 +170,7 @@ fn associated_dilatancy() {
 #[test]
 fn no_return_fails() {
     let mut random = uniform(7);
+    let mut worst = Worst::new("MAT-04: 10^6 returns, f over fc after the return", 1e-8);
     for case in Case::all(27.5) {
         let compliance = isotropic(concrete(27.5).young_mpa, 0.2)
             .try_inverse()
@@ -170,15 +184,21 @@ fn no_return_fails() {
                 state[6] = case.curve.peak_kappa();
             }
             let stress = case.update(&strain, &mut state);
-            assert!(case.overshoot(&stress, &state) <= 1e-8, "{strain:?}");
+            let over = case.overshoot(&stress, &state);
+            worst.see(if over < 0.0 { 0.0 } else { over }, strain);
         }
     }
+    worst.tell();
 }
 
 /// Two half steps against one while yielding: the difference falls with the square of the step.
 #[test]
 fn half_steps_converge() {
     let mut random = uniform(3);
+    let mut worst = Worst::new(
+        "MAT-04: two half steps, difference over that of ten times the step",
+        0.015,
+    );
     let base = Vector6::new(-1.2e-3, 4e-4, 2e-4, 2e-4, -1e-4, 3e-4);
     for case in Case::all(27.5) {
         let mut state = vec![0.0; 7];
@@ -194,10 +214,14 @@ fn half_steps_converge() {
             };
             let (coarse, fine) = (difference(1e-5), difference(1e-6));
             assert!(fine <= 0.015 * coarse, "{coarse} {fine}");
-            loading += usize::from(coarse > 1e-6);
+            if coarse > 1e-6 {
+                worst.see(fine / coarse, direction);
+                loading += 1;
+            }
         }
         assert!(loading > 100, "{loading}");
     }
+    worst.tell();
 }
 
 /// A strain without physical meaning is answered or refused, but never a panic or an endless loop; on the

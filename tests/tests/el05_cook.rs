@@ -11,6 +11,7 @@ use fe_core::kinematics::PlaneStress;
 use fe_core::material::Material;
 use fe_core::mesh::{Mesh, NodeId};
 use fe_core::model::{Conditions, Model};
+use fe_core::testing::{Worst, curve, within};
 use fe_elements::QuadRule;
 use fe_materials::Elastic;
 use fe_tests::dense::DenseModel;
@@ -98,6 +99,7 @@ fn deflection_in_space(n: usize, rule: QuadRule) -> f64 {
 /// (4 points) with 2, 4, 8, 32 elements per side, within 0.001 (0.0015 for the last digit rounded).
 #[test]
 fn deflection_converges_to_the_published_value() {
+    let mut paths = [vec![], vec![]];
     for (n, full, reduced) in [
         (2, 22.718, 23.171),
         (4, 23.708, 23.726),
@@ -106,20 +108,37 @@ fn deflection_converges_to_the_published_value() {
     ] {
         for (rule, target) in [(QuadRule::Full, full), (QuadRule::Reduced, reduced)] {
             let found = deflection(n, rule);
-            assert!((found - target).abs() < 1e-3, "{n} {rule:?}: {found}");
+            within(
+                &format!("deflection, {n} x {n}, {rule:?}"),
+                found,
+                target,
+                1e-3,
+            );
+            paths[usize::from(rule == QuadRule::Reduced)].push([1.0 / n as f64, found]);
         }
     }
-    assert!((deflection(32, QuadRule::Full) - 23.96).abs() < 0.01);
+    for (path, points) in paths.into_iter().zip(["9 points", "4 points"]) {
+        let [_, finest] = path[path.len() - 1];
+        within(
+            &format!("EL-05: deflection, 32 x 32, {points}"),
+            finest,
+            23.96,
+            0.01,
+        );
+        curve(&format!("cook, {points}"), path);
+    }
 }
 
 /// Protects the membrane in space: the deflection along the edge is that of the quadrilateral in the plane. Target: 1e-9
 /// relative, with both rules.
 #[test]
 fn a_membrane_in_an_oblique_plane_deflects_as_much() {
+    let mut worst = Worst::new("deflection over that in the plane, relative error", 1e-9);
     for n in [2, 4, 8] {
         for rule in [QuadRule::Full, QuadRule::Reduced] {
             let ratio = deflection_in_space(n, rule) / deflection(n, rule);
-            assert!((ratio - 1.0).abs() < 1e-9, "{n} {rule:?}: {ratio}");
+            worst.see(ratio - 1.0, (n, rule));
         }
     }
+    worst.tell();
 }

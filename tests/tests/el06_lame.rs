@@ -9,10 +9,11 @@ use std::f64::consts::FRAC_PI_2;
 
 use fe_core::dof::Dof;
 use fe_core::model::{Conditions, Model};
+use fe_core::testing::{Worst, within, within_share};
 use fe_elements::HexRule;
 use fe_tests::conditions::{hold, push_faces};
 use fe_tests::laws::elastic;
-use fe_tests::mesh::{boxes, cells, hexahedra, lines, mapped};
+use fe_tests::mesh::{boxes, cells, hexahedra, lines, mapped, nodes_where};
 use fe_tests::solve::{Solution, solve};
 use fe_tests::stress::ElasticCell;
 
@@ -54,12 +55,16 @@ fn radial_displacement() {
         (4, HexRule::Reduced, 1.0002, 5e-5),
     ] {
         let (model, solution) = tube(n, rule);
-        for (node, x) in model.mesh().nodes().iter().enumerate() {
-            if x[0] == 100.0 && x[1] == 0.0 {
-                let found = solution.at(&model, node, Dof::Ux) / 0.090_794;
-                assert!((found - ratio).abs() < digits, "{n} {rule:?}: {found}");
-            }
-        }
+        let at_a = nodes_where(model.mesh(), |x| x[0] == 100.0 && x[1] == 0.0);
+        let ratios = at_a
+            .iter()
+            .map(|&n| solution.at(&model, n, Dof::Ux) / 0.090_794);
+        // Through the thickness, the one that misses most.
+        let miss = |found: &f64| (found - ratio).abs();
+        let found = ratios.max_by(|a, b| miss(a).total_cmp(&miss(b))).unwrap();
+        let id = if n == 4 { "EL-06: " } else { "" };
+        let what = format!("{id}u(a) over theory, {n} x {n}, {rule:?}");
+        within(&what, found, ratio, digits);
     }
 }
 
@@ -68,6 +73,7 @@ fn radial_displacement() {
 #[test]
 fn hoop_stress() {
     let (model, solution) = tube(16, HexRule::Reduced);
+    let mut worst = Worst::new("hoop stress at the Gauss points, relative error", 1e-4);
     for (e, element) in model.elements().iter().enumerate() {
         let u = model.gather(e, &solution.displacement);
         let check = &mut |point: fe_core::element::PointSample<'_>| {
@@ -76,10 +82,11 @@ fn hoop_stress() {
             let s = point.stress;
             let hoop = (y * y * s[0] + x * x * s[1] - 2.0 * x * y * s[3]) / r2;
             let exact = 100.0 / 3.0 * (1.0 + 4e4 / r2);
-            assert!((hoop / exact - 1.0).abs() < 1e-4, "{hoop} {exact}");
+            worst.see(hoop / exact - 1.0, point.position);
         };
         element.sample(&u, &[], check).unwrap();
     }
+    worst.tell();
     // Along y = 0 the hoop stress is yy; the cells next to it come first along the ring.
     let law = elastic(210e3, 0.3).unwrap();
     let block = &model.mesh().blocks()[0];
@@ -95,7 +102,13 @@ fn hoop_stress() {
             if coords[corner][0] == at && coords[corner][1] == 0.0 {
                 let xi = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0]][corner];
                 let hoop = cell.extrapolated(xi).unwrap()[1];
-                assert!((hoop / exact - 1.0).abs() < 2e-3, "{hoop} {exact}");
+                let place = ["a", "b"][corner];
+                within_share(
+                    &format!("EL-06: hoop stress at {place} (MPa)"),
+                    hoop,
+                    exact,
+                    2e-3,
+                );
             }
         }
     }

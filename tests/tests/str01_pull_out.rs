@@ -9,6 +9,7 @@ use fe_contact::PullOut;
 use fe_core::dof::Dof;
 use fe_core::model::Conditions;
 use fe_core::state::StateStore;
+use fe_core::testing::{Worst, below, curve, within, within_share};
 use fe_solver::control::StepControl;
 use fe_solver::driver::Driver;
 use fe_solver::error::SolverError;
@@ -94,13 +95,6 @@ fn control(step: f64, end: f64) -> StepControl {
     }
 }
 
-fn assert_close(found: f64, target: f64, tolerance: f64) {
-    assert!(
-        (found / target - 1.0).abs() < tolerance,
-        "{found} instead of {target}"
-    );
-}
-
 fn area(rows: &[Row]) -> f64 {
     let first = std::iter::once([0.0; 3]);
     let points: Vec<_> = first.chain(rows.iter().map(|r| r.0)).collect();
@@ -120,7 +114,8 @@ fn elastic_limit() {
             &control(0.0429, 0.0429),
             &mut newton(),
         );
-        assert_close(rows[0].0[1], target, 1e-4);
+        let what = format!("STR-01: elastic limit (N), L = {length}");
+        within_share(&what, rows[0].0[1], target, 1e-4);
     }
 }
 
@@ -139,23 +134,39 @@ fn short_strip_along_its_whole_path() {
         .max_by(|a, b| a.0[1].total_cmp(&b.0[1]))
         .unwrap()
         .0;
-    assert_close(peak[1], 7064.7, 1e-3);
-    assert!((peak[0] - 0.13943).abs() < 1.5e-3, "{peak:?}");
-    assert_close(area(&rows), 50.0 * 50.0 * 0.45684, 1e-3);
+    within_share("STR-01: peak (N), L = 50", peak[1], 7064.7, 1e-3);
+    within(
+        "displacement at the peak (mm), L = 50",
+        peak[0],
+        0.13943,
+        1.5e-3,
+    );
+    within_share(
+        "dissipation (N mm), L = 50",
+        area(&rows),
+        50.0 * 50.0 * 0.45684,
+        1e-3,
+    );
     let closed = closed();
+    let mut worst = Worst::new(
+        "load against the closed form, error over the peak, L = 50",
+        5e-3,
+    );
     for softened in [5.0, 15.0, 25.0, 40.0, 49.0] {
         let (force, displacement) = closed.softening(50.0, softened);
         let after = rows.iter().position(|r| r.0[0] >= displacement).unwrap();
         let [a, b] = [rows[after - 1].0, rows[after].0];
         let share = (displacement - a[0]) / (b[0] - a[0]);
         let found = a[1] + share * (b[1] - a[1]);
-        assert!(
-            (found - WIDTH * force).abs() < 5e-3 * peak[1],
-            "{softened}: {found}"
-        );
+        worst.see((found - WIDTH * force) / peak[1], softened);
     }
+    worst.tell();
     let end = rows.last().unwrap().0;
-    assert!(end[1].abs() < 0.2, "{end:?}");
+    below("load that is left (N), L = 50", end[1].abs(), 0.2);
+    curve(
+        "pull-out, 50 mm",
+        rows.iter().step_by(8).map(|r| [r.0[0], r.0[1]]),
+    );
 }
 
 /// Target: the peak of a long bond within 0.1 %, the load at s_f within 0.01 % of it, and the plateau after it within
@@ -169,10 +180,17 @@ fn long_strip_to_its_plateau() {
         &mut newton(),
     );
     let at = |d: f64| rows.iter().find(|r| r.0[0] >= d).unwrap().0;
-    assert_close(at(FINAL)[1], 9269.91, 1e-3);
+    within_share(
+        "STR-01: load at s_f (N), L = 400",
+        at(FINAL)[1],
+        9269.91,
+        1e-3,
+    );
+    let mut worst = Worst::new("plateau against 9269.91 N, relative error, L = 400", 1e-3);
     for row in rows.iter().filter(|r| r.0[0] >= FINAL) {
-        assert_close(row.0[1], 9269.91, 1e-3);
+        worst.see(row.0[1] / 9269.91 - 1.0, row.0);
     }
+    worst.tell();
 }
 
 /// Beyond 1.5 mm the slip of the free end drives the path through the snap-back. Targets: the loaded end turns at
@@ -224,23 +242,42 @@ fn long_strip_through_its_snap_back() {
         .max_by(|a, b| a.0[0].total_cmp(&b.0[0]))
         .unwrap()
         .0;
-    assert_close(turning[0], 1.76917, 1e-3);
-    assert_close(turning[1], 9003.0, 1e-2);
+    within_share(
+        "STR-01: loaded end turns back (mm), L = 400",
+        turning[0],
+        1.76917,
+        1e-3,
+    );
+    within_share("STR-01: load there (N)", turning[1], 9003.0, 1e-2);
     // All of what is left softens: the slip of the free end is beyond s0.
     let line: Vec<_> = rows
         .iter()
         .filter(|r| r.0[2] > 0.0429)
         .map(|r| r.0)
         .collect();
-    assert!((line[0][0] - 1.72148).abs() < 5e-3 && (line[0][1] / 8521.5 - 1.0).abs() < 1e-2);
+    within(
+        "the straight line starts (mm), L = 400",
+        line[0][0],
+        1.72148,
+        5e-3,
+    );
+    within_share("load there (N)", line[0][1], 8521.5, 1e-2);
+    let mut worst = Worst::new("straight line, error over its first load, L = 400", 1e-2);
     for [displacement, force, _] in &line {
         let exact = 8521.5 * (displacement - FINAL) / (1.72148 - FINAL);
-        assert!(
-            (force - exact).abs() < 0.01 * 8521.5,
-            "{displacement}: {force}, {exact}"
-        );
+        worst.see((force - exact) / 8521.5, displacement);
     }
-    assert_close(area(&rows), 400.0 * 50.0 * 0.45684, 2e-3);
+    worst.tell();
+    within_share(
+        "STR-01: dissipation (N mm), L = 400",
+        area(&rows),
+        400.0 * 50.0 * 0.45684,
+        2e-3,
+    );
+    curve(
+        "pull-out, 400 mm",
+        rows.iter().step_by(3).map(|r| [r.0[0], r.0[1]]),
+    );
 }
 
 /// Displacement control alone cannot follow: Newton-Raphson stops where the loaded end would turn, the secant driver jumps
@@ -267,7 +304,8 @@ fn displacement_control_jumps_over_the_snap_back() {
         matches!(stopped, SolverError::NoConvergence { .. }),
         "{stopped}"
     );
-    assert_close(path.rows.last().unwrap().0[0], 1.76917, 1e-2);
+    let last = path.rows.last().unwrap().0;
+    within_share("Newton-Raphson stops (mm), L = 400", last[0], 1.76917, 1e-2);
 
     let mut secant = SecantAnderson::new(SecantSettings::default());
     let (rows, ..) = pull(&strip, 400.0, &reach, &mut secant);
@@ -276,8 +314,18 @@ fn displacement_control_jumps_over_the_snap_back() {
         .position(|r| r[1].0[1] < 0.5 * r[0].0[1])
         .unwrap();
     let ([before, after], marked) = ([rows[jump].0, rows[jump + 1].0], rows[jump + 1].1);
-    assert_close(before[0], 1.76917, 1e-2);
+    within_share(
+        "the secant driver jumps (mm), L = 400",
+        before[0],
+        1.76917,
+        1e-2,
+    );
     assert!(before[1] > 8521.0 && marked);
     let residual = 1e-6 * 1.5 / 0.0195 * 400.0 * 50.0;
-    assert_close(after[1], residual * after[0], 1e-2);
+    within_share(
+        "load after the jump (N), L = 400",
+        after[1],
+        residual * after[0],
+        1e-2,
+    );
 }

@@ -8,6 +8,7 @@
 
 use fe_core::dof::Dof;
 use fe_core::model::{Conditions, Model};
+use fe_core::testing::{Worst, curve, within_share};
 use fe_solver::automatic::Automatic;
 use fe_solver::control::StepControl;
 use fe_solver::driver::Driver;
@@ -40,15 +41,26 @@ fn drive(
     path
 }
 
-/// Compares the load of every step with a displacement in `range` with the curve; at least `least` steps lie there.
-fn compare(path: &[[f64; 2]], range: [f64; 2], least: usize, curve: impl Fn(f64) -> f64) {
+/// Compares the load of every step with a displacement in `range` with theory; at least `least` steps lie there.
+#[track_caller]
+fn compare(
+    what: &str,
+    path: &[[f64; 2]],
+    range: [f64; 2],
+    least: usize,
+    theory: impl Fn(f64) -> f64,
+) {
+    let mut worst = Worst::new(
+        &format!("{what}: load against beam theory, relative error"),
+        0.012,
+    );
     let inside = |p: &&[f64; 2]| p[0] >= range[0] && p[0] <= range[1];
     let inside: Vec<_> = path.iter().filter(inside).collect();
     assert!(inside.len() >= least, "{inside:?}");
     for [w, load] in inside {
-        let exact = curve(*w);
-        assert!((load / exact - 1.0).abs() < 0.012, "{w}: {load}, {exact}");
+        worst.see(load / theory(*w) - 1.0, w);
     }
+    worst.tell();
 }
 
 /// Load of the first of the formulas at the displacement of the second, a between `low` and `high` (mm).
@@ -65,20 +77,27 @@ fn beam_theory(w: f64, low: f64, high: f64, formulas: impl Fn(f64) -> [f64; 2]) 
     formulas(low)[0]
 }
 
+/// Protects the closed forms that the others are held against. Target: the printed digits.
 #[test]
 fn formulas() {
-    for (found, target) in [
-        (dcb(30.0), [64.807, 1.7282]),
-        (dcb(40.0), [48.606, 3.0724]),
-        (enf(30.0), [299.3, 1.5290]),
-        (enf(34.67), [259.0, 1.4990]),
-        (enf(50.0), [179.6, 1.7323]),
+    for (name, found, target) in [
+        ("DCB, a = 30", dcb(30.0), [64.807, 1.7282]),
+        ("DCB, a = 40", dcb(40.0), [48.606, 3.0724]),
+        ("ENF, a = 30", enf(30.0), [299.3, 1.5290]),
+        ("ENF, a = 34.67", enf(34.67), [259.0, 1.4990]),
+        ("ENF, a = 50", enf(50.0), [179.6, 1.7323]),
     ] {
-        assert!(
-            found
-                .iter()
-                .zip(target)
-                .all(|(f, t)| (f / t - 1.0).abs() < 3e-4)
+        within_share(
+            &format!("formula of {name}, load (N)"),
+            found[0],
+            target[0],
+            3e-4,
+        );
+        within_share(
+            &format!("formula of {name}, displacement (mm)"),
+            found[1],
+            target[1],
+            3e-4,
         );
     }
 }
@@ -105,7 +124,9 @@ fn double_cantilever_beam() {
         &mut SecantAnderson::default(),
         [0.1, 2.9],
     );
-    compare(&path, [2.25, 2.9], 6, |w| beam_theory(w, 30.0, 50.0, dcb));
+    let theory = |w| beam_theory(w, 30.0, 50.0, dcb);
+    compare("STR-04: DCB", &path, [2.25, 2.9], 6, theory);
+    curve("DCB", path);
 }
 
 /// Target: the load over displacement of beam theory while the crack grows from
@@ -120,7 +141,14 @@ fn end_notched_flexure() {
     // follows until it falls below the curve; Newton-Raphson stays on it.
     let mut driver = NewtonRaphson::new(NewtonSettings::default());
     let path = drive(&model, conditions, &mut driver, [0.05, 1.63]);
-    compare(&path, [1.55, 1.63], 3, |w| beam_theory(w, 34.67, 60.0, enf));
+    let theory = |w| beam_theory(w, 34.67, 60.0, enf);
+    compare("STR-04: ENF", &path, [1.55, 1.63], 3, theory);
+}
+
+/// Displacement and load of every so many points of a path: some hundred.
+fn thinned(points: &[[f64; 2]]) -> impl Iterator<Item = [f64; 2]> {
+    let every = points.len().div_ceil(100);
+    points.iter().step_by(every).map(|[load, w]| [*w, *load])
 }
 
 /// Whether the force has fallen to that of a crack of 38 mm, or of 47 mm.
@@ -147,18 +175,22 @@ fn longer_notches_snap_back_less_or_not_at_all() {
             let falling = falling(&path);
             let on: Vec<_> = falling.iter().filter(|p| p[0] < enf(formed)[0]).collect();
             assert!(on.len() >= 2, "{notch} {step}: {on:?}");
+            let setup = format!("notch of {notch} mm, steps of {step}");
+            let what = format!("displacement against beam theory, relative error, {setup}");
+            let mut worst = Worst::new(&what, 0.012);
             for [load, w] in on {
                 let a = enf(1.0)[0] / load;
-                assert!(
-                    (w / enf(a)[1] - 1.0).abs() < 0.012,
-                    "{notch} {step}: {w}, {load}"
-                );
+                worst.see(w / enf(a)[1] - 1.0, load);
             }
+            worst.tell();
             let backwards = falling.windows(2).any(|p| p[1][1] < p[0][1] - 1e-3);
             assert_eq!(backwards, notch == 30.0, "{notch} {step}: {falling:?}");
             if notch == 30.0 {
-                let least = least(falling);
-                assert!((least / 1.499 - 1.0).abs() < 6e-3, "{step}: {least}");
+                let what = format!("displacement turns back (mm), {setup}");
+                within_share(&what, least(falling), 1.499, 6e-3);
+            }
+            if step == 0.05 {
+                curve(&format!("ENF, {notch} mm"), thinned(&path.points));
             }
         }
     }
@@ -176,13 +208,21 @@ fn end_notched_flexure_snaps_back() {
         let path = follow((&model, conditions.clone()), legs, turned).unwrap();
         assert!(path.stopped.is_none(), "{step}: {:?}", path.stopped);
         let falling = falling(&path);
-        let least = least(falling);
-        assert!((least / 1.499 - 1.0).abs() < 6e-3, "{step}: {least}");
+        let id = if step == 0.05 { "STR-04: " } else { "" };
+        let setup = format!("notch of 20 mm, steps of {step}");
+        let what = format!("{id}displacement turns back (mm), {setup}");
+        within_share(&what, least(falling), 1.499, 6e-3);
+        let what = format!("displacement against beam theory, relative error, {setup}");
+        let mut worst = Worst::new(&what, 0.012);
         let on: Vec<_> = falling.iter().filter(|p| p[0] < 300.0).collect();
         assert!(on.len() >= 4 && on[0][0] > 240.0, "{step}: {on:?}");
         for [load, w] in on {
             let a = enf(1.0)[0] / load;
-            assert!((w / enf(a)[1] - 1.0).abs() < 0.012, "{step}: {w}, {load}");
+            worst.see(w / enf(a)[1] - 1.0, load);
+        }
+        worst.tell();
+        if step == 0.05 {
+            curve("ENF, 20 mm", thinned(&path.points));
         }
     }
 }

@@ -9,6 +9,7 @@ use fe_core::dof::Dof;
 use fe_core::element::Element;
 use fe_core::mesh::Mesh;
 use fe_core::model::{Conditions, Model};
+use fe_core::testing::{Worst, within, within_share};
 use fe_elements::{BandWidth, Bar, Hex20, HexRule, embed};
 use fe_materials::Biso;
 use fe_materials::concrete::{Calibration, Ottosen};
@@ -94,19 +95,18 @@ fn force(model: &Model, strain: f64) -> f64 {
     step(model, conditions).reaction(model, &end, Dof::Ux)
 }
 
-fn assert_close(found: f64, target: f64, tolerance: f64) {
-    assert!(
-        (found / target - 1.0).abs() < tolerance,
-        "{found} instead of {target}"
-    );
-}
-
 /// Target: 24 507 N at a strain of 7.333e-5; yielding at 92 488 N with all concrete cracked.
 #[test]
 fn cracking_and_yielding() {
     let model = tie(20, STRENGTH);
-    assert_close(force(&model, CRACKING * (1.0 - 1e-5)), 24_507.0, 3e-5);
-    assert_close(force(&model, 5e-3), 92_488.0, 1e-5);
+    let found = force(&model, CRACKING * (1.0 - 1e-5));
+    within_share("STR-05: cracking force (N)", found, 24_507.0, 3e-5);
+    within_share(
+        "STR-05: yield force (N)",
+        force(&model, 5e-3),
+        92_488.0,
+        1e-5,
+    );
 }
 
 /// One fully cracked cell of 25, 50, 100 mm at fixed displacement. Target: the force drops by 15.5, 26.8, 42.2 %, and by
@@ -117,13 +117,12 @@ fn the_drop_at_a_crack_depends_on_the_cell() {
         let strain = 0.9995 * CRACKING;
         let whole = strain * (CONCRETE * NET + STEEL * BAR);
         let cracked = force(&tie(n, 0.999 * STRENGTH), strain);
-        assert!(
-            (1.0 - cracked / whole - drop).abs() < 5e-4,
-            "{n}: {}",
-            1.0 - cracked / whole
-        );
+        let cell = LENGTH / n as f64;
+        let what = format!("STR-05: drop at one crack, cells of {cell} mm");
+        within(&what, 1.0 - cracked / whole, drop, 5e-4);
         let all = force(&tie(n, STRENGTH), 1.0001 * CRACKING);
-        assert!((1.0 - all / whole - 0.88).abs() < 5e-3);
+        let what = format!("drop when all cells crack, cells of {cell} mm");
+        within(&what, 1.0 - all / whole, 0.88, 5e-3);
     }
 }
 
@@ -141,10 +140,16 @@ fn under_load_control_the_strain_jumps() {
         solution.at(&model, end, Dof::Ux) / LENGTH
     };
     let cracking = CRACKING * (CONCRETE * NET + STEEL * BAR);
-    assert_close(strain_under(cracking * (1.0 - 1e-5)), 7.333e-5, 1e-4);
+    let before = strain_under(cracking * (1.0 - 1e-5));
+    within_share("strain before the jump", before, 7.333e-5, 1e-4);
     let after = strain_under(cracking * (1.0 + 1e-5));
-    assert_close(after, 6.094e-4, 2e-4);
-    assert_close(STEEL * after, 121.9, 2e-4);
+    within_share("STR-05: strain after the jump", after, 6.094e-4, 2e-4);
+    within_share(
+        "STR-05: stress of the bar at a crack (MPa)",
+        STEEL * after,
+        121.9,
+        2e-4,
+    );
 }
 
 /// The tie of `n` cells of the default law, of 30 MPa in compression: a crack in every cell, and no support but against rigid motion.
@@ -194,18 +199,27 @@ fn softening(n: usize, steps: usize, end: f64) -> (Vec<[f64; 2]>, f64) {
 fn the_default_law_cracks_and_yields() {
     for (n, excess) in [(40, 0.0926), (20, 0.0358), (10, 0.0049)] {
         let (path, _) = softening(n, 1, CRACKING * (1.0 - 1e-5));
-        assert_close(path[0][1], 24_507.0, 3e-5);
+        let tie = format!("default law, cells of {} mm", LENGTH / n as f64);
+        within_share(
+            &format!("cracking force (N), {tie}"),
+            path[0][1],
+            24_507.0,
+            3e-5,
+        );
+        let mut worst = Worst::new(&format!("force to yielding, relative error, {tie}"), 1e-8);
         let (path, reach) = softening(n, 46, 2.3e-3);
         for [strain, force] in &path {
             let opening = (strain - CRACKING).max(0.0);
             let concrete = (CONCRETE * strain).min(STRENGTH) * (-opening / reach).exp();
-            assert_close(*force, NET * concrete + BAR * STEEL * strain, 1e-8);
+            worst.see(
+                force / (NET * concrete + BAR * STEEL * strain) - 1.0,
+                strain,
+            );
         }
+        worst.tell();
         let [strain, force] = path[path.len() - 1];
-        assert_close(strain, 460.0 / STEEL, 1e-9);
-        assert!(
-            (force / 92_488.0 - 1.0 - excess).abs() < 2e-4,
-            "{n}: {force}"
-        );
+        assert!((strain / (460.0 / STEEL) - 1.0).abs() < 1e-9, "{strain}");
+        let what = format!("yield force over that of the bar less 1, {tie}");
+        within(&what, force / 92_488.0 - 1.0, excess, 2e-4);
     }
 }

@@ -14,6 +14,7 @@ use fe_core::kinematics::{Axial, Solid};
 use fe_core::material::{Material, Operator};
 use fe_core::model::{Conditions, Model};
 use fe_core::state::StateStore;
+use fe_core::testing::within_share;
 use fe_elements::{Bar, HexRule, embed};
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 use fe_materials::{Biso, Elastic};
@@ -113,13 +114,6 @@ fn cracked(layers: usize) -> Piece {
     )
 }
 
-fn assert_close(found: f64, target: f64, tolerance: f64) {
-    assert!(
-        (found / target - 1.0).abs() < tolerance,
-        "{found} instead of {target}"
-    );
-}
-
 /// Elastic, the bar replacing concrete: moment at which the soffit reaches ft = 2.2 MPa. Target: 13.085 kNm.
 #[test]
 fn cracking_moment() {
@@ -127,7 +121,12 @@ fn cracking_moment() {
     let piece = Piece::new(1, &concrete, Arc::new(Elastic::new(170e3, 0.0).unwrap()));
     let (moment, neutral) = piece.bend(1e-6);
     let soffit = 30e3 * 1e-6 * (DEPTH - neutral);
-    assert_close(moment * 2.2 / soffit, 13.085, 5e-5);
+    within_share(
+        "STR-06: cracking moment (kNm)",
+        moment * 2.2 / soffit,
+        13.085,
+        5e-5,
+    );
 }
 
 /// Yielding and ultimate state. Target: closed form within 0.05 % with 20 layers (40 fibres), the neutral axis within 0.5 %;
@@ -136,13 +135,26 @@ fn cracking_moment() {
 fn yielding_and_ultimate_moment() {
     let ultimate = (6.127e-5, 93.294, 57.125);
     let piece = cracked(20);
-    for (phi, moment, neutral) in [(9.199e-6, 89.201, 109.97), ultimate] {
+    let yielding = (9.199e-6, 89.201, 109.97);
+    for (name, (phi, moment, neutral)) in [("yield", yielding), ("ultimate", ultimate)] {
         let found = piece.bend(phi);
-        assert_close(found.0, moment, 5e-4);
-        assert_close(found.1, neutral, 5e-3);
+        within_share(
+            &format!("STR-06: {name} moment (kNm)"),
+            found.0,
+            moment,
+            5e-4,
+        );
+        within_share(
+            &format!("STR-06: {name} neutral axis (mm)"),
+            found.1,
+            neutral,
+            5e-3,
+        );
     }
     for (layers, tolerance) in [(4, 1e-2), (8, 5e-4)] {
-        assert_close(cracked(layers).bend(ultimate.0).0, ultimate.1, tolerance);
+        let found = cracked(layers).bend(ultimate.0).0;
+        let what = format!("ultimate moment (kNm), {layers} layers");
+        within_share(&what, found, ultimate.1, tolerance);
     }
 }
 
@@ -164,7 +176,26 @@ fn the_default_law_bends_the_section() {
         let steel = Arc::new(Biso::hot_rolled(200e3, 460.0, 0.0).unwrap());
         Piece::new(20, &law, steel)
     });
-    assert_close(brittle.bend(9.199e-6).0, 89.201, 0.015);
-    assert_close(brittle.bend(6.127e-5).0, 93.294, 0.015);
-    assert_close(concrete.bend(9.199e-6).0, 1.07 * 89.201, 0.01);
+    let [yielding, ultimate] = [9.199e-6, 6.127e-5];
+    let found = brittle.bend(yielding).0;
+    within_share(
+        "yield moment (kNm), default law, brittle",
+        found,
+        89.201,
+        0.015,
+    );
+    let found = brittle.bend(ultimate).0;
+    within_share(
+        "ultimate moment (kNm), default law, brittle",
+        found,
+        93.294,
+        0.015,
+    );
+    let found = concrete.bend(yielding).0 / 89.201;
+    within_share(
+        "yield moment over that without tension, default law",
+        found,
+        1.07,
+        0.01,
+    );
 }

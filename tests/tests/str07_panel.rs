@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 
+use fe_core::testing::{between, within_share};
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 use fe_tests::panel::{Panel, Smeared};
 
@@ -28,8 +29,18 @@ fn shear(ratios: [f64; 2]) -> [f64; 2] {
 #[test]
 fn equal_reinforcement_yields_both_ways() {
     let [largest, last] = shear([0.01, 0.01]);
-    assert!((largest / 4.0 - 1.0).abs() < 1e-3, "{largest}");
-    assert!((last / 4.0 - 1.0).abs() < 1e-3, "{last}");
+    within_share(
+        "STR-07: largest shear stress (MPa), 1 % both ways",
+        largest,
+        4.0,
+        1e-3,
+    );
+    within_share(
+        "shear stress at the end (MPa), 1 % both ways",
+        last,
+        4.0,
+        1e-3,
+    );
 }
 
 /// With half as much across, the first cracks, at 45 degrees and fixed, are not those of the limit state: shear must
@@ -38,5 +49,9 @@ fn equal_reinforcement_yields_both_ways() {
 fn unequal_reinforcement_exceeds_the_bound_by_what_crosses_fixed_cracks() {
     let [largest, _] = shear([0.01, 0.005]);
     let bound = 8.0_f64.sqrt();
-    assert!((1.0..1.08).contains(&(largest / bound)), "{largest}");
+    between(
+        "STR-07: largest shear stress over the bound, 1 % and 0.5 %",
+        largest / bound,
+        [1.0, 1.08],
+    );
 }

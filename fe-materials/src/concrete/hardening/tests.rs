@@ -1,5 +1,6 @@
 //! Protects the curve, its plastic strain and the closed inverse.
 use approx::assert_relative_eq;
+use fe_core::testing::{curve as tell_curve, within};
 
 use super::*;
 
@@ -16,12 +17,35 @@ fn model_code_stresses() {
         (30.0, 33551.0, 2.031, [14.88, 26.02, 33.49, 34.62]),
     ] {
         let p = ConcreteScalars::from_characteristic(fck).unwrap();
-        assert!((p.young_mpa - young).abs() < 0.6);
-        assert!((p.plasticity_number() - k).abs() < 6e-4);
-        let curve = curve(fck);
-        for (strain, target) in [0.5e-3, 1e-3, 1.5e-3, 3e-3].into_iter().zip(targets) {
-            assert!((curve.at(strain / p.eps_c1).stress - target).abs() < 6e-3);
+        within(
+            &format!("MAT-05: E_ci (MPa), fck = {fck}"),
+            p.young_mpa,
+            young,
+            0.6,
+        );
+        within(
+            &format!("MAT-05: k, fck = {fck}"),
+            p.plasticity_number(),
+            k,
+            6e-4,
+        );
+        let stress = |strain: f64| curve(fck).at(strain / p.eps_c1).stress;
+        let strains = [0.5e-3, 1e-3, 1.5e-3, 3e-3];
+        for (strain, target) in strains.into_iter().zip(targets) {
+            let what = format!(
+                "MAT-05: stress at {} permille (MPa), fck = {fck}",
+                1e3 * strain
+            );
+            within(&what, stress(strain), target, 6e-3);
         }
+        let points = (0..=70).map(|i| 0.05 * f64::from(i));
+        let points = points.map(|permille| [permille, stress(1e-3 * permille)]);
+        tell_curve(&format!("compression, fck = {fck}"), points);
+        let points = strains.map(|strain| 1e3 * strain).into_iter().zip(targets);
+        tell_curve(
+            &format!("compression targets, fck = {fck}"),
+            points.map(<[f64; 2]>::from),
+        );
     }
 }
 

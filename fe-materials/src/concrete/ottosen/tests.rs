@@ -1,6 +1,7 @@
 //! Protects the calibration, value and derivatives of the surface.
 
 use approx::assert_relative_eq;
+use fe_core::testing::{Worst, curve, within};
 use nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
 use proptest::prelude::*;
 
@@ -29,6 +30,10 @@ fn textbook(k: f64) -> Ottosen {
 /// Target: F = fc at the four calibration points to 1e-10, for the four concretes of the beams.
 #[test]
 fn the_four_calibration_points_lie_on_the_surface() {
+    let mut worst = Worst::new(
+        "MAT-02: calibration points on the surface, relative error",
+        1e-10,
+    );
     for fck in [19.3, 27.5, 20.5, 50.0] {
         let p = ConcreteScalars::from_characteristic(fck).unwrap();
         let points = Calibration::model_code(p.fcm_mpa, p.fctm_mpa);
@@ -43,9 +48,10 @@ fn the_four_calibration_points_lie_on_the_surface() {
             Vector3::new(x + d / 3.0, x + d / 3.0, x - 2.0 * d / 3.0),
         ] {
             let f = surface.principal_effective_stress(&s);
-            assert_relative_eq!(f, p.fcm_mpa, max_relative = 1e-10);
+            worst.see(f / p.fcm_mpa - 1.0, (fck, s));
         }
     }
+    worst.tell();
 }
 
 /// Source: table of fib Model Code 2010 parameters, evaluated independently. Target: the printed digits.
@@ -70,6 +76,10 @@ fn model_code_calibration_gives_the_tabulated_coefficients() {
         ),
     ];
     let shear = [153.528, 150.108, 152.874, 151.675];
+    let mut worst = Worst::new(
+        "coefficients of four concretes against the table, error",
+        6e-7,
+    );
     for ((fck, expected), tau) in table.into_iter().zip(shear) {
         let p = ConcreteScalars::from_characteristic(fck).unwrap();
         let points = Calibration::model_code(p.fcm_mpa, p.fctm_mpa);
@@ -83,13 +93,11 @@ fn model_code_calibration_gives_the_tabulated_coefficients() {
             s.c1(),
             s.c2(),
         ];
-        for (value, target) in found.into_iter().zip(expected) {
-            assert!(
-                (value - target).abs() < 6e-7,
-                "fck {fck}: {value} against {target}"
-            );
+        for (i, (value, target)) in found.into_iter().zip(expected).enumerate() {
+            worst.see(value - target, (fck, i));
         }
     }
+    worst.tell();
 }
 
 /// Source: Ottosen (1977), table 1, as benchmark MAT-02. Target: the printed digits.
@@ -101,14 +109,15 @@ fn general_calibration_gives_the_published_parameters() {
         (0.12, [0.9218, 2.5969, 9.9110, 0.9647]),
     ] {
         let s = textbook(k);
-        for (value, target) in [s.alpha(), s.beta(), s.c1(), s.c2()]
-            .into_iter()
-            .zip(expected)
-        {
-            assert!(
-                (value - target).abs() < 6e-5,
-                "k = {k}: {value} against {target}"
-            );
+        let found = [
+            ("a", s.alpha()),
+            ("b", s.beta()),
+            ("K1", s.c1()),
+            ("K2", s.c2()),
+        ];
+        for ((name, value), target) in found.into_iter().zip(expected) {
+            let id = if k == 0.10 { "MAT-02: " } else { "" };
+            within(&format!("{id}{name}, ft = {k} fc"), value, target, 6e-5);
         }
     }
 }
@@ -120,11 +129,13 @@ fn lambda_and_apex_agree_with_the_two_branch_form() {
     let s = textbook(0.10);
     for (degrees, target) in [(0.0_f64, 11.711), (30.0, 10.164), (60.0, 6.532)] {
         let cos3t = (3.0 * degrees.to_radians()).cos();
-        assert!((s.lambda(cos3t) - target).abs() < 6e-4);
+        let what = format!("MAT-01: lambda at {degrees} degrees");
+        within(&what, s.lambda(cos3t), target, 6e-4);
     }
     let apex = 1.0 / (3.0 * s.beta());
-    assert!((apex - 0.1043).abs() < 6e-5);
+    within("MAT-01: hydrostatic apex over fc", apex, 0.1043, 6e-5);
     assert_relative_eq!(s.principal_effective_stress(&Vector3::repeat(apex)), 1.0);
+    let mut worst = Worst::new("lambda against its two branches, relative error", 1e-13);
     for i in -10..=10 {
         let c = f64::from(i) / 10.0;
         let branch = if c >= 0.0 {
@@ -132,8 +143,9 @@ fn lambda_and_apex_agree_with_the_two_branch_form() {
         } else {
             std::f64::consts::FRAC_PI_3 - (-s.c2() * c).acos() / 3.0
         };
-        assert_relative_eq!(s.lambda(c), s.c1() * branch.cos(), max_relative = 1e-13);
+        worst.see(s.lambda(c) / (s.c1() * branch.cos()) - 1.0, c);
     }
+    worst.tell();
 }
 
 /// Source: benchmark MAT-03 (biaxial envelope of Kupfer 1969 and confinement of Richart 1928, as given by
@@ -141,6 +153,7 @@ fn lambda_and_apex_agree_with_the_two_branch_form() {
 #[test]
 fn biaxial_and_confined_strengths() {
     let s = textbook(0.10);
+    let mut points = Vec::new();
     for (ratio, target) in [
         (0.0, 1.000),
         (0.25, 1.352),
@@ -149,8 +162,17 @@ fn biaxial_and_confined_strengths() {
         (1.0, 1.160),
     ] {
         let f = s.principal_effective_stress(&Vector3::new(-1.0, -ratio, 0.0));
-        assert!((1.0 / f - target).abs() < 6e-4, "{ratio}: {}", 1.0 / f);
+        let what = format!("MAT-03: strength over fc, stress ratio {ratio}");
+        within(&what, 1.0 / f, target, 6e-4);
+        points.push([-target, -ratio * target]);
     }
+    curve("envelope targets", points);
+    let directions = (0..=180).map(|i| (f64::from(2 * i).to_radians()).sin_cos());
+    let envelope = directions.map(|(sine, cosine)| {
+        let f = s.principal_effective_stress(&Vector3::new(cosine, sine, 0.0));
+        [cosine / f, sine / f]
+    });
+    curve("envelope", envelope);
     for (pressure, target) in [(0.1, 1.67), (0.2, 2.23), (0.5, 3.58), (1.0, 5.36)] {
         let (mut low, mut high) = (pressure, 20.0);
         for _ in 0..60 {
@@ -158,7 +180,8 @@ fn biaxial_and_confined_strengths() {
             let f = s.principal_effective_stress(&Vector3::new(-axial, -pressure, -pressure));
             if f < 1.0 { low = axial } else { high = axial }
         }
-        assert!((low - target).abs() < 6e-3, "{pressure}: {low}");
+        let what = format!("MAT-03: strength over fc, lateral pressure {pressure} fc");
+        within(&what, low, target, 6e-3);
     }
 }
 
