@@ -5,7 +5,7 @@
 pub struct Page {
     /// What the file says of them together.
     pub header: String,
-    /// Name, in words, and what it protects.
+    /// Name and what it protects.
     pub tests: Vec<(String, String)>,
 }
 
@@ -34,7 +34,7 @@ pub fn read(source: &str) -> Page {
             if page.tests.is_empty() {
                 page.header = inner.join(" ").trim().replace("  ", "\n\n");
             }
-            page.tests.push((name.replace('_', " "), outer.join(" ")));
+            page.tests.push((name.to_owned(), outer.join(" ")));
             (is_test, outer) = (false, Vec::new());
         } else if !line.starts_with("#[") {
             outer.clear();
@@ -54,7 +54,7 @@ mod tests {
                       #[test]\n    fn one_is_one() {\n    }\n\n    /// No test.\n    fn other() {}\n    #[test]\n    fn bare() {}\n}\n";
         let page = read(source);
         assert_eq!(page.header, "Protects all.");
-        let expected = [("one is one", "Target: 1."), ("bare", "")];
+        let expected = [("one_is_one", "Target: 1."), ("bare", "")];
         let expected = expected.map(|(a, b)| (a.to_owned(), b.to_owned()));
         assert_eq!(page.tests, expected);
     }
