@@ -9,9 +9,12 @@ use nalgebra::{Matrix3, Vector3};
 const INSIDE: f64 = 1e-9;
 /// Share of a segment below which a stretch is rounding and gets no piece of its own.
 const SLIVER: f64 = 1e-14;
-/// Samples along a segment within the bounding box of a distorted host. A stretch outside that is shorter
-/// than the spacing of the samples is not seen: the map of the host is continued there.
+/// Samples along a segment within the bounding box of a distorted host. Between two of them the largest distance outside is
+/// sought where a sample is nearer to leaving than its neighbours; a stretch outside that is shorter and has its largest
+/// distance elsewhere is not seen: the map of the host is continued there.
 const SAMPLES: usize = 64;
+/// Reductions, by the golden section, of the stretch that holds a largest distance: to a ten-thousandth.
+const SECTIONS: usize = 20;
 /// Bisections of the distance between two samples, down to rounding.
 const BISECTIONS: usize = 50;
 
@@ -143,27 +146,51 @@ impl Host {
     /// First crossing of a face after `from`, by sampling and bisection.
     fn first_crossing(&self, segment: &Segment, from: f64) -> f64 {
         let end = segment.leaves_box(from, &self.low, &self.high, 0.0);
-        let mut inside = from;
-        for i in 1..=SAMPLES {
-            let t = from + (end - from) * i as f64 / SAMPLES as f64;
-            if self.outside(segment.at(t)) <= INSIDE {
-                inside = t;
-                continue;
-            }
-            // What counts as inside for a bar along a face does so here: its rounding is no crossing.
-            let mut outside = t;
+        let at = |i: usize| from + (end - from) * i as f64 / SAMPLES as f64;
+        let reach = |t: f64| self.outside(segment.at(t));
+        // What counts as inside for a bar along a face does so here: its rounding is no crossing.
+        let crossing = |mut inside: f64, mut outside: f64| {
             for _ in 0..BISECTIONS {
                 let mid = inside.midpoint(outside);
-                if self.outside(segment.at(mid)) <= INSIDE {
+                if reach(mid) <= INSIDE {
                     inside = mid;
                 } else {
                     outside = mid;
                 }
             }
-            return inside;
+            inside
+        };
+        let (mut before, mut here) = (f64::NEG_INFINITY, reach(from));
+        for i in 1..=SAMPLES {
+            let next = reach(at(i));
+            if here >= before && here > next {
+                let (low, high) = (at(i.saturating_sub(2)), at(i));
+                let peak = largest(reach, low, high);
+                if reach(peak) > INSIDE {
+                    return crossing(low, peak);
+                }
+            }
+            if next > INSIDE {
+                return crossing(at(i - 1), at(i));
+            }
+            (before, here) = (here, next);
         }
         end
     }
+}
+
+/// Where between two places a function with one maximum there is largest, by the golden section.
+fn largest(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let share = 0.5 * (5.0_f64.sqrt() - 1.0);
+    for _ in 0..SECTIONS {
+        let step = share * (high - low);
+        if value(high - step) < value(low + step) {
+            low = high - step;
+        } else {
+            high = low + step;
+        }
+    }
+    low.midpoint(high)
 }
 
 /// Pieces of the segment from `a` to `b`, every stretch in exactly one host: of several that hold it, the
