@@ -3,6 +3,7 @@
 mod iteration;
 mod linear;
 mod metal;
+mod points;
 
 use std::error::Error;
 use std::path::Path;
@@ -53,6 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let sections = one.install(|| -> Result<String, String> {
         let mut text = String::new();
         let say = |e: Box<dyn Error>| e.to_string();
+        points::section(&mut text).map_err(say)?;
         iteration::section(&mut text).map_err(say)?;
         metal::section(&mut text).map_err(say)?;
         linear::section(&mut text).map_err(say)?;
