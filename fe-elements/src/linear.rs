@@ -2,6 +2,7 @@
 
 use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext};
 use fe_core::material::Operator;
+use pulp::{Arch, Simd, WithSimd};
 
 use crate::seen::{Seen, View};
 
@@ -90,8 +91,31 @@ impl Linear {
 impl Constant {
     /// Adds K u.
     fn add_force(&self, u: &[f64], force: &mut [f64]) {
-        for (column, u) in self.0.chunks_exact(u.len()).zip(u) {
-            for (f, k) in force.iter_mut().zip(column) {
+        let stiffness = &self.0;
+        Arch::new().dispatch(Product {
+            stiffness,
+            u,
+            force,
+        });
+    }
+}
+
+/// f + K u by columns, compiled for the vector unit found at run time.
+struct Product<'a> {
+    stiffness: &'a [f64],
+    u: &'a [f64],
+    force: &'a mut [f64],
+}
+
+impl WithSimd for Product<'_> {
+    type Output = ();
+
+    // Inlining is what compiles the body for the vector unit of the caller.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for (column, u) in self.stiffness.chunks_exact(self.u.len()).zip(self.u) {
+            for (f, k) in self.force.iter_mut().zip(column) {
                 *f += k * u;
             }
         }
