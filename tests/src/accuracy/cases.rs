@@ -92,7 +92,7 @@ pub const SOURCE: Case = Case {
 };
 
 /// Numerical settings.
-pub const NUMERICS: [Case; 9] = [
+pub const NUMERICS: [Case; 10] = [
     Case {
         with_sheets: Some("--mesh 88x9"),
         ..case("mesh-88x6", "finer", "--mesh 88x6", KINDS)
@@ -100,6 +100,10 @@ pub const NUMERICS: [Case; 9] = [
     Case {
         with_sheets: Some("--mesh 60x6x1"),
         ..case("mesh-60x4x1", "one across", "--mesh 60x4x1", KNOWN)
+    },
+    Case {
+        with_sheets: Some("--mesh 88x9x1"),
+        ..case("mesh-88x6x1", "finer, one across", "--mesh 88x6x1", KINDS)
     },
     Case {
         with_sheets: Some("--mesh 60x6x2"),
