@@ -351,6 +351,21 @@ const CASES: &[Case] = &[
             "allowed: 0 to 305 mm",
         ],
     ),
+    (
+        "x_mm: 1525,\n            y_mm: 0,",
+        "x_mm: 640,\n            y_mm: 0,",
+        "640",
+        &[
+            "measuring.deflection.x_mm: deflection read at 640 mm, above the support at 610 mm",
+            "allowed: more than",
+        ],
+    ),
+    (
+        "held: [Ux, Uy]",
+        "held: [Ux, Uy, Uy]",
+        "",
+        &["supports[0].held: Uy stands twice"],
+    ),
     // Counts.
     (
         "y_mm: 51,",

@@ -28,11 +28,19 @@ impl Checks<'_> {
         self.apart();
         self.held();
         for (i, support) in self.specimen.supports.iter().enumerate() {
+            let path = format!("supports[{i}].held");
+            let twice = |h: &Held| support.held.iter().filter(|other| *other == h).count() > 1;
             if support.held.is_empty() {
                 self.report(
-                    format!("supports[{i}].held"),
+                    path,
                     "holds nothing; allowed: Ux, Uy, or both",
                     "name what it holds, or leave the support out",
+                );
+            } else if let Some(held) = support.held.iter().find(|h| twice(h)) {
+                self.report(
+                    path,
+                    format!("{held:?} stands twice; allowed: Ux, Uy, or both, once each"),
+                    "leave one out",
                 );
             }
         }
@@ -153,6 +161,23 @@ impl Checks<'_> {
                 0.0..=limit,
                 "the point lies in the half model: x from the left end, y from the soffit, \
                  z from the middle of the width",
+            );
+        }
+        let x = point.x_mm.get();
+        let below = self.specimen.supports.iter().find(|s| {
+            let half = 0.5 * s.plate.length_mm.get();
+            s.held.contains(&Held::Uy) && (s.x_mm.get() - x).abs() <= half + TOLERANCE
+        });
+        if let Some(support) = below {
+            let half = 0.5 * support.plate.length_mm.get();
+            self.report(
+                "measuring.deflection.x_mm",
+                format!(
+                    "deflection read at {x} mm, above the support at {} mm, which does not move; allowed: more than {half} mm \
+                     away from it",
+                    support.x_mm.get()
+                ),
+                "read it in a span",
             );
         }
         let span = &measuring.test_span;
