@@ -115,13 +115,6 @@ impl Automatic {
     /// Looks at the last accepted step, once.
     fn look_back(&mut self, stage: &Stage<'_>) -> Result<(), SolverError> {
         let steps = stage.counters().steps;
-        if steps < self.seen {
-            // What was found in another stage says nothing about this one.
-            *self = Self {
-                largest: self.largest,
-                ..Self::new(self.settings)
-            };
-        }
         if std::mem::replace(&mut self.seen, steps) == steps {
             return Ok(());
         }
@@ -283,6 +276,14 @@ fn largest(du: impl Iterator<Item = f64>) -> f64 {
 impl Driver for Automatic {
     fn name(&self) -> &'static str {
         "automatic path control"
+    }
+
+    /// The largest load is that of all stages.
+    fn begin(&mut self) {
+        *self = Self {
+            largest: self.largest,
+            ..Self::new(self.settings)
+        };
     }
 
     fn attempt(

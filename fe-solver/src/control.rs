@@ -133,6 +133,7 @@ impl StepControl {
         recorder: &mut dyn Recorder,
     ) -> Result<String, SolverError> {
         self.check()?;
+        driver.begin();
         let mut length = self.initial.min(self.longest);
         let mut progress = 0.0;
         let mut step = 1;

@@ -36,7 +36,7 @@ pub struct Lag {
     /// Share of the growth of histories that was admitted, see
     /// [`EvaluationContext::relaxation`](fe_core::element::EvaluationContext::relaxation).
     pub relaxation: f64,
-    /// Work of the viscous excess of stress over the work done, both up to here.
+    /// Work of the viscous excess of stress over the work done, both of the run up to here.
     pub viscous: f64,
 }
 
@@ -62,7 +62,7 @@ pub struct Attempt {
 }
 
 /// Brings one step to equilibrium, starting from the accepted state of a stage.
-pub trait Driver: Debug {
+pub trait Driver: Debug + Send {
     /// Name, for output.
     fn name(&self) -> &'static str;
 
@@ -71,6 +71,10 @@ pub trait Driver: Debug {
     fn balances(&self) -> bool {
         true
     }
+
+    /// A [run](crate::control::StepControl::run) begins, perhaps of another stage: what was found in an earlier one is to
+    /// be forgotten.
+    fn begin(&mut self) {}
 
     /// Tries a step.
     ///

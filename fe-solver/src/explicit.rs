@@ -69,8 +69,6 @@ struct Motion {
 pub struct Explicit {
     settings: ExplicitSettings,
     motion: Motion,
-    /// Accepted steps of the stage at the last attempt; none where the motion has been recalled.
-    at: Option<usize>,
 }
 
 impl Explicit {
@@ -96,7 +94,6 @@ impl Explicit {
         Ok(Self {
             settings,
             motion: Motion::default(),
-            at: None,
         })
     }
 
@@ -154,6 +151,11 @@ impl Driver for Explicit {
         false
     }
 
+    /// A motion begins at rest, also where another driver has led to.
+    fn begin(&mut self) {
+        self.motion = Motion::default();
+    }
+
     fn attempt(
         &mut self,
         stage: &mut Stage<'_>,
@@ -161,14 +163,10 @@ impl Driver for Explicit {
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
         let s = self.settings;
-        // A motion begins at rest, also where another driver has led to.
-        let steps = stage.counters().steps;
-        let goes_on = self.at.is_none_or(|at| steps == at || steps == at + 1);
-        let same = self.motion.mass.len() == stage.restrict(stage.displacement()).len();
-        if steps == 0 || !(goes_on && same) {
+        let equations = stage.assembler().free().len();
+        if self.motion.mass.is_empty() || self.motion.mass.len() != equations {
             self.motion = Self::start(stage)?;
         }
-        self.at = Some(steps);
         let mut motion = self.motion.clone();
         let period = TAU / (motion.omega * s.time_step);
         let full = 1.0 / (s.periods * period);
@@ -252,7 +250,6 @@ impl Driver for Explicit {
             return;
         };
         let (mass, velocity) = rest.split_at(rest.len() / 2);
-        self.at = None;
         self.motion = Motion {
             mass: mass.to_vec(),
             omega: *omega,

@@ -62,6 +62,10 @@ impl Driver for Viscous {
         false
     }
 
+    fn begin(&mut self) {
+        (self.total, self.pending) = ([0.0; 2], [0.0; 2]);
+    }
+
     fn attempt(
         &mut self,
         stage: &mut Stage<'_>,
@@ -69,13 +73,9 @@ impl Driver for Viscous {
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
         let steps = stage.counters().steps;
-        if steps < self.seen {
-            // Another stage.
-            (self.total, self.pending) = ([0.0; 2], [0.0; 2]);
-        } else if steps != self.seen {
+        if std::mem::replace(&mut self.seen, steps) != steps {
             self.total = self.sums();
         }
-        self.seen = steps;
         self.pending = [0.0; 2];
         let relaxation = request.length / (self.viscosity + request.length);
         let mut attempt = self.newton.relaxed(relaxation, stage, request, log)?;

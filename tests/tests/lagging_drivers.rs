@@ -3,9 +3,17 @@
 //! Source: STR-03, closed form: 209 N, G_F A = 8 N mm. Targets: what each driver tells of its error is there, and falls
 //! with its cause.
 
+use std::collections::VecDeque;
+use std::io;
+
+use fe_core::state::StateStore;
+use fe_solver::control::StepControl;
 use fe_solver::driver::Driver;
 use fe_solver::implex::Implex;
+use fe_solver::journal::Entry;
 use fe_solver::newton::NewtonSettings;
+use fe_solver::recorder::{Continue, Recorder, StepView};
+use fe_solver::stage::Stage;
 use fe_solver::viscous::Viscous;
 use fe_tests::driven::{Driven, Leg, drive};
 use fe_tests::softening_bar::{STRENGTH, moved};
@@ -51,4 +59,56 @@ fn steps_without_iteration_tell_that_they_are_no_equilibria() {
     }
     let [a, b] = [short.peak() / 209.0 - 1.0, long.peak() / 209.0 - 1.0];
     assert!(0.0 < a && a < 0.04 && a < 0.7 * b, "{a} {b}");
+}
+
+/// Viscous work over the work of every step, with a journal.
+#[derive(Default)]
+struct Seen {
+    earlier: VecDeque<Entry>,
+    kept: Vec<Entry>,
+    viscous: Vec<Option<f64>>,
+}
+
+impl Recorder for Seen {
+    fn recall(&mut self) -> io::Result<Option<Entry>> {
+        Ok(self.earlier.pop_front())
+    }
+
+    fn keep(&mut self, entry: &Entry) -> io::Result<()> {
+        self.kept.push(entry.clone());
+        Ok(())
+    }
+
+    fn step(&mut self, view: &StepView<'_>) -> io::Result<Continue> {
+        self.viscous.push(view.viscous);
+        Ok(Continue::Yes)
+    }
+}
+
+/// Draws a virgin bar into its softening, beginning with the steps of an earlier run.
+fn lead(driver: &mut Viscous, earlier: Vec<Entry>) -> Seen {
+    let (model, conditions) = moved(500.0, &[STRENGTH, 0.95 * STRENGTH, STRENGTH]);
+    let mut state = StateStore::new(model.elements());
+    let zero = vec![0.0; model.dofs().len()];
+    let mut stage = Stage::new(&model, conditions, &mut state, zero).unwrap();
+    let mut seen = Seen {
+        earlier: earlier.into(),
+        ..Seen::default()
+    };
+    let control = StepControl::new(0.002, 0.044);
+    control.run(&mut stage, driver, &mut seen).unwrap();
+    seen
+}
+
+/// Protects the account of a stage from the one before, led or recalled. Target: the same to the last bit in every stage.
+#[test]
+fn viscous_work_is_that_of_the_stage() {
+    let viscous = || Viscous::new(1e-4, NewtonSettings::default()).unwrap();
+    let mut driver = viscous();
+    let first = lead(&mut driver, Vec::new());
+    assert!(first.viscous.last().unwrap().unwrap() > 0.0);
+    assert_eq!(lead(&mut driver, Vec::new()).viscous, first.viscous);
+    let mut resumed = viscous();
+    assert_eq!(lead(&mut resumed, first.kept).viscous, first.viscous);
+    assert_eq!(lead(&mut resumed, Vec::new()).viscous, first.viscous);
 }
