@@ -358,7 +358,7 @@ impl StepControl {
         let lambda = entry.attempt.lambda;
         let critical = signs.and_then(|signs| stage.signs().until(signs));
         if let Some(means) = &entry.attempt.means {
-            stage.read_off(&means.internal);
+            stage.read_off(&means.internal)?;
         }
         let load = stage.load();
         match entry.load {
@@ -421,6 +421,12 @@ impl StepControl {
             return Err(SolverError::Journal {
                 step,
                 what: "number of unknowns".into(),
+            });
+        }
+        if !(entry.length > 0.0 && entry.taken > 0.0) {
+            return Err(SolverError::Journal {
+                step,
+                what: format!("length {} for {} aimed at", entry.taken, entry.length),
             });
         }
         for record in &entry.iterations {

@@ -245,7 +245,13 @@ impl Descent {
                 alpha = 1.0;
                 continue;
             }
-            alpha *= (slope / (slope - there)).clamp(0.1, 0.7);
+            let fits = slope / (slope - there);
+            // Shortened most where the residual is no number.
+            alpha *= if fits.is_nan() {
+                0.1
+            } else {
+                fits.clamp(0.1, 0.7)
+            };
         }
     }
 }

@@ -32,6 +32,14 @@ pub enum SolverError {
         /// Pivot over the diagonal entry it came from.
         ratio: f64,
     },
+    /// An entry of the stiffness is NaN or infinite.
+    #[error(
+        "the stiffness is not finite at {at}: an element there, or its law, gives no number; fe_core::testing checks both"
+    )]
+    NotFinite {
+        /// Node and DOF.
+        at: String,
+    },
     /// No step could be completed, not even the shortest.
     #[error(
         "no convergence at load factor {lambda:.6} with the shortest step {step:.3e}: relative residual \
@@ -83,7 +91,7 @@ pub enum SolverError {
         what: String,
     },
     /// A setting is impossible.
-    #[error("{what} = {value} is outside {allowed}")]
+    #[error("{what} = {value}; allowed: {allowed}")]
     Setting {
         /// Setting.
         what: &'static str,
@@ -148,7 +156,7 @@ impl SolverError {
     pub fn is_recoverable(&self) -> bool {
         match self {
             Self::Model(e) => e.is_recoverable(),
-            Self::Singular { .. } | Self::Linear(LinearError::NotFinite { .. }) => true,
+            Self::Singular { .. } | Self::NotFinite { .. } => true,
             _ => false,
         }
     }

@@ -128,9 +128,15 @@ impl<'m> Stage<'m> {
         linear
             .analyze(assembler.pattern())
             .map_err(SolverError::Linear)?;
+        // Nothing has been evaluated: no forces yet.
+        let assembled = Assembled {
+            internal: vec![0.0; dofs],
+            coupling: vec![0.0; assembler.free().len()],
+            ..Assembled::default()
+        };
         Ok(Self {
             model,
-            external: vec![0.0; start.len()],
+            external: vec![0.0; dofs],
             displacement: start.clone(),
             start,
             conditions,
@@ -138,7 +144,7 @@ impl<'m> Stage<'m> {
             linear,
             stable_tangent: false,
             state,
-            assembled: Assembled::default(),
+            assembled,
             evaluated: None,
             lambda: 0.0,
             previous: None,
@@ -272,13 +278,14 @@ impl<'m> Stage<'m> {
     ///
     /// # Errors
     ///
-    /// [`SolverError::Model`].
+    /// [`SolverError::Mismatch`] for a `u` of another model, [`SolverError::Model`].
     pub fn residual(
         &mut self,
         u: &[f64],
         lambda: f64,
         ctx: &EvaluationContext,
     ) -> Result<Vec<f64>, SolverError> {
+        SolverError::length("displacement", u.len(), self.start.len())?;
         let begin = Instant::now();
         self.counters.force_evaluations += 1;
         // An evaluation that fails has been made nowhere.
@@ -341,7 +348,7 @@ impl<'m> Stage<'m> {
     ///
     /// # Errors
     ///
-    /// [`SolverError::Singular`] naming node and DOF, or [`SolverError::Linear`].
+    /// [`SolverError::Singular`] or [`SolverError::NotFinite`] naming node and DOF, or [`SolverError::Linear`].
     pub fn factorise(&mut self) -> Result<(), SolverError> {
         self.factorised(|linear, matrix| linear.factorize(matrix).map(Some))
     }
@@ -429,9 +436,15 @@ impl<'m> Stage<'m> {
     }
 
     /// Makes `internal` (N, all DOFs) the forces from which loads and reactions are read until the next evaluation.
-    pub(crate) fn read_off(&mut self, internal: &[f64]) {
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError::Mismatch`] for forces of another model.
+    pub(crate) fn read_off(&mut self, internal: &[f64]) -> Result<(), SolverError> {
+        SolverError::length("mean internal force", internal.len(), self.start.len())?;
         self.assembled.internal.copy_from_slice(internal);
         self.evaluated = None;
+        Ok(())
     }
 
     /// sum_j |K_ij| of the free equations (N/mm) of the last operator, which must be symmetric.
@@ -523,6 +536,13 @@ impl<'m> Stage<'m> {
                     dof,
                     position,
                     ratio: pivot_ratio,
+                }
+            }
+            LinearError::NotFinite { position } => {
+                let rows = self.assembler.pattern().row_idx();
+                let dof = self.assembler.free()[rows[position % rows.len()]];
+                SolverError::NotFinite {
+                    at: self.describe(dof as usize),
                 }
             }
             other => SolverError::Linear(other),
