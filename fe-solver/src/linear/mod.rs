@@ -10,6 +10,24 @@
 //!
 //! A matrix near the one whose L L^T is at hand may be solved by conjugate gradients with that factor instead, where
 //! counted operations say that it is cheaper, see [`LinearSolver::renew`].
+//!
+//! ```
+//! use fe_solver::linear::{DirectSolver, LinearSolver, MatrixValues, Sparsity};
+//!
+//! // The lower triangle, column by column, of 4 1 0; 1 3 -1; 0 -1 2.
+//! let pattern = Sparsity::from_groups(3, [[0, 1], [1, 2]].iter().map(|pair| &pair[..]));
+//! let values = MatrixValues {
+//!     lower: vec![4.0, 1.0, 3.0, -1.0, 2.0],
+//!     upper: Vec::new(),
+//! };
+//! let mut solver = DirectSolver::default();
+//! solver.analyze(&pattern)?;
+//! assert_eq!(solver.factorize(&values)?.negative, 0);
+//! let mut x = [5.0, 3.0, 1.0];
+//! solver.solve_in_place(&mut x)?;
+//! assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-15));
+//! # Ok::<(), fe_solver::linear::LinearError>(())
+//! ```
 
 mod blocks;
 mod conjugate;
@@ -26,9 +44,8 @@ mod tree;
 mod triangular;
 
 pub use error::LinearError;
+pub use fe_core::sparsity::{MatrixValues, Sparsity};
 pub use order::Ordering;
-
-use fe_core::sparsity::{MatrixValues, Sparsity};
 
 use conjugate::Nearby;
 use elimination::Kind;
@@ -183,23 +200,24 @@ impl DirectSolver {
     }
 
     /// Solves by conjugate gradients within the iterations that still pay. Returns whether they sufficed.
-    fn iterate(&mut self, rhs: &mut [f64], limit: usize) -> bool {
+    fn iterate(&mut self, rhs: &mut [f64], limit: usize) -> Result<bool, LinearError> {
         let (Some(analysis), Some(factor)) = (&self.analysis, &mut self.factor) else {
-            return false;
+            return Err(LinearError::NotAnalysed);
         };
+        fits("values on the right", rhs.len(), analysis.pattern.len())?;
         let system = Nearby {
             pattern: &analysis.pattern,
             values: &self.values,
             precondition: |r: &mut [f64]| factor.solve(&analysis.fronts, r),
         };
         let Some((x, iterations)) = system.solve(rhs, ITERATE_TO, limit) else {
-            return false;
+            return Ok(false);
         };
         rhs.copy_from_slice(&x);
         self.put_off = Some(limit - iterations);
         self.stats.iterations += iterations;
         self.stats.solves += iterations + 1;
-        true
+        Ok(true)
     }
 }
 
@@ -302,11 +320,8 @@ impl LinearSolver for DirectSolver {
     }
 
     fn solve_in_place(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
-        if let Some(analysis) = &self.analysis {
-            fits("values on the right", rhs.len(), analysis.pattern.len())?;
-        }
         if let Some(limit) = self.put_off {
-            if self.iterate(rhs, limit) {
+            if self.iterate(rhs, limit)? {
                 return Ok(());
             }
             let values = std::mem::take(&mut self.values);
