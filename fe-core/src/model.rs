@@ -44,6 +44,12 @@ pub enum ModelError {
         /// Nodes there are.
         nodes: usize,
     },
+    /// An element is built on no node.
+    #[error("element {element} has no node: it could neither move nor be found")]
+    NoNode {
+        /// Index of the element.
+        element: usize,
+    },
     /// An element is built on a node that follows another.
     #[error("element {element} has node {node}, which follows another: build it on leaders")]
     OnFollower {
@@ -139,7 +145,7 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// [`ModelError::NoSuchNode`] for an element on a node that the mesh does not have.
+    /// [`ModelError::NoSuchNode`] for an element on a node that the mesh does not have, [`ModelError::NoNode`] for one on none.
     pub fn new(mesh: Mesh, elements: Vec<Box<dyn Element>>) -> Result<Self, ModelError> {
         Self::with_followers(mesh, elements, Followers::default())
     }
@@ -149,8 +155,8 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// [`ModelError::NoSuchNode`] for an element or follower on a node that the mesh does not have, [`ModelError::OnFollower`]
-    /// for an element on a follower, [`ModelError::Chain`] for a follower of a follower.
+    /// Those of [`Self::new`], [`ModelError::NoSuchNode`] also for a follower, [`ModelError::OnFollower`] for an element on a
+    /// follower, [`ModelError::Chain`] for a follower of a follower.
     pub fn with_followers(
         mesh: Mesh,
         elements: Vec<Box<dyn Element>>,
@@ -158,6 +164,9 @@ impl Model {
     ) -> Result<Self, ModelError> {
         let dofs = DofMap::new(&mesh, &elements)?;
         for (element, e) in elements.iter().enumerate() {
+            if e.nodes().is_empty() {
+                return Err(ModelError::NoNode { element });
+            }
             if let Some(&node) = e.nodes().iter().find(|&&n| followers.of(n).0 != n) {
                 return Err(ModelError::OnFollower { element, node });
             }
@@ -355,7 +364,10 @@ impl Conditions {
         if nodes.is_empty() {
             return Err(ModelError::EmptySet {
                 set: set.into(),
-                known: model.mesh().set_names().collect::<Vec<_>>().join(", "),
+                known: match model.mesh().set_names().collect::<Vec<_>>() {
+                    names if names.is_empty() => "none".into(),
+                    names => names.join(", "),
+                },
             });
         }
         let mut fixed = self.clone();

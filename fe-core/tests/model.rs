@@ -8,7 +8,7 @@ use common::{Brick, Damage, Flaw, Truss};
 use fe_core::assembly::Assembler;
 use fe_core::check;
 use fe_core::dof::Dof;
-use fe_core::element::Element;
+use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext};
 use fe_core::followers::Followers;
 use fe_core::grid::GridBuilder;
 use fe_core::mesh::{Block, CellKind, Mesh, MeshError};
@@ -203,6 +203,45 @@ fn an_element_on_a_node_that_is_not_there_is_refused() {
     assert_eq!(
         Model::new(mesh, vec![Box::new(bar)]).unwrap_err(),
         ModelError::NoSuchNode { node: 2, nodes: 2 }
+    );
+}
+
+/// Without a node an element has no place that an error could name.
+#[test]
+fn an_element_without_a_node_is_refused() {
+    #[derive(Debug)]
+    struct Nowhere;
+
+    impl Element for Nowhere {
+        fn nodes(&self) -> &[usize] {
+            &[]
+        }
+
+        fn dofs(&self) -> &'static [Dof] {
+            &[]
+        }
+
+        fn state_len(&self) -> usize {
+            0
+        }
+
+        fn init_state(&self, _: &mut [f64]) {}
+
+        fn evaluate(
+            &self,
+            _: &[f64],
+            _: &[f64],
+            _: &mut [f64],
+            _: &EvaluationContext,
+            _: ElementSystem<'_>,
+        ) -> Result<(), ElementError> {
+            Ok(())
+        }
+    }
+
+    assert_eq!(
+        Model::new(cube(), vec![Box::new(Nowhere)]).unwrap_err(),
+        ModelError::NoNode { element: 0 }
     );
 }
 

@@ -4,7 +4,7 @@ mod common;
 
 use common::{Damage, Elastic, Flaw, YOUNG};
 use fe_core::material::PointContext;
-use fe_core::point::{Control, PointDriver, PointError, Segment};
+use fe_core::point::{Control, PointDriver, PointError, PointSettings, Segment};
 use nalgebra::Matrix6;
 
 use Control::{Strain, Stress};
@@ -121,6 +121,40 @@ fn impossible_programs_are_refused_before_anything_runs() {
         let failure = point.run(&[good.clone(), bad]).unwrap_err().to_string();
         assert!(failure.starts_with(start), "{failure}");
         assert_eq!(point.history().rows().len(), 1);
+    }
+}
+
+/// Settings that no residual meets, or with which a failing step is halved for ever.
+#[test]
+fn settings_that_lead_nowhere_are_refused_by_name() {
+    let law = Damage(Flaw::None);
+    let good = PointSettings::default();
+    for (wrong, settings) in [
+        (
+            "tolerance",
+            PointSettings {
+                tolerance: f64::NAN,
+                ..good
+            },
+        ),
+        (
+            "halvings",
+            PointSettings {
+                halvings: usize::MAX,
+                ..good
+            },
+        ),
+        (
+            "subdivisions",
+            PointSettings {
+                subdivisions: usize::MAX,
+                ..good
+            },
+        ),
+    ] {
+        let mut point = PointDriver::new(&law, CTX).unwrap().with_settings(settings);
+        let refused = point.run(&[Segment::new(vec![Strain(1e-4)], 1)]);
+        assert!(matches!(refused, Err(PointError::Setting { what, .. }) if what == wrong));
     }
 }
 

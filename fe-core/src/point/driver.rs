@@ -21,6 +21,38 @@ pub struct PointSettings {
     pub subdivisions: usize,
 }
 
+/// Halvings after which nothing is left of a double but its rounding.
+const MOST_HALVINGS: usize = 52;
+
+impl PointSettings {
+    fn check(&self) -> Result<(), PointError> {
+        let tolerance = self.tolerance;
+        let fits = tolerance.is_finite() && tolerance > 0.0;
+        setting("tolerance", tolerance, "(0, inf)", fits)?;
+        for (what, count) in [
+            ("halvings", self.halvings),
+            ("subdivisions", self.subdivisions),
+        ] {
+            setting(what, count as f64, "[0, 52]", count <= MOST_HALVINGS)?;
+        }
+        Ok(())
+    }
+}
+
+fn setting(
+    what: &'static str,
+    value: f64,
+    allowed: &'static str,
+    fits: bool,
+) -> Result<(), PointError> {
+    let wrong = PointError::Setting {
+        what,
+        value,
+        allowed,
+    };
+    if fits { Ok(()) } else { Err(wrong) }
+}
+
 impl Default for PointSettings {
     fn default() -> Self {
         Self {
@@ -155,6 +187,7 @@ impl<'a, K: Kinematics> PointDriver<'a, K> {
     ///
     /// [`PointError`]; the history keeps all that was reached before, the last sub-step included.
     pub fn run(&mut self, segments: &[Segment]) -> Result<(), PointError> {
+        self.settings.check()?;
         for (segment, ramp) in (1..).zip(segments) {
             check::<K>(segment, ramp)?;
         }

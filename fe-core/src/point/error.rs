@@ -10,6 +10,16 @@ pub enum PointError {
     /// The law refuses the point itself.
     #[error("the point cannot be served: {0}")]
     Refused(MaterialError),
+    /// A setting with which the driver would never arrive, or never end.
+    #[error("{what} = {value}; allowed: {allowed}")]
+    Setting {
+        /// Setting.
+        what: &'static str,
+        /// Value given.
+        value: f64,
+        /// Allowed range.
+        allowed: &'static str,
+    },
     /// A segment has the wrong number of components.
     #[error(
         "segment {segment} prescribes {given} components, but the law has {expected}: {labels}; give one \

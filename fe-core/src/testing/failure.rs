@@ -25,7 +25,7 @@ impl fmt::Display for Place {
 #[non_exhaustive]
 pub enum CheckFailure {
     /// The check itself was set up wrongly.
-    #[error("the check cannot run: {what} = {value} is outside {allowed}")]
+    #[error("the check cannot run: {what} = {value}; allowed: {allowed}")]
     Setting {
         /// Quantity.
         what: &'static str,
