@@ -1,6 +1,6 @@
 //! Cohesive laws and interface elements.
 //!
-//! A cohesive law is a [`Material`](fe_core::material::Material) over the
+//! A cohesive law is a [`Material`](material::Material) over the
 //! [`Interface`] kinematics: the displacement jump (mm) along two tangents
 //! and the normal (opening positive) goes in, the traction (MPa) comes out. One trait, one point driver
 //! and one conformance suite serve it and the laws of solids alike, and the kinematics marker keeps a
@@ -13,6 +13,8 @@
 //! - [`case::BondCase`] is any of them as text.
 //! - [`Interface16`] is the element between two 8-node faces, [`BondSlip`] the one between a bar and the
 //!   hexahedra around it.
+//!
+//! The traits of `fe-core` that a single point needs are re-exported: [`kinematics`], [`material`] and the driver [`point`].
 
 mod bond_slip;
 pub mod case;
@@ -25,11 +27,10 @@ mod pull_out;
 mod slip_damage;
 mod viscous;
 
-use fe_core::kinematics::Kinematics;
-
 pub use bond_slip::{BondSlip, BondSlipBar};
 pub use envelope::Envelope;
 pub use fe_core::kinematics::Interface;
+pub use fe_core::{kinematics, material, point};
 pub use interface16::{Interface16, InterfaceRule};
 pub use mixed_mode::{MixedMode, MixedModeParameters};
 pub use normal::{BondSettings, Normal};
@@ -42,13 +43,13 @@ pub use viscous::Viscous;
 ///
 /// ```
 /// use fe_contact::{Interface, slip_and_opening};
-/// use fe_core::kinematics::Kinematics;
+/// use fe_contact::kinematics::Kinematics;
 ///
 /// let (slip, opening) = slip_and_opening(&Interface::vector(&[0.3, 0.4, -0.1]));
 /// assert!((slip - 0.5).abs() < 1e-15);
 /// assert!((opening + 0.1).abs() < 1e-15);
 /// ```
-pub fn slip_and_opening(jump: &<Interface as Kinematics>::Vector) -> (f64, f64) {
+pub fn slip_and_opening(jump: &<Interface as kinematics::Kinematics>::Vector) -> (f64, f64) {
     (jump[0].hypot(jump[1]), jump[2])
 }
 

@@ -1,5 +1,7 @@
 //! Artificial viscosity of an interface law, with the energy it swallows.
 
+use std::sync::Arc;
+
 use fe_core::kinematics::Interface;
 use fe_core::material::{
     Material, MaterialError, Operator, PointContext, PointReport, Response, StateVar,
@@ -26,20 +28,20 @@ const LAW: &str = "artificial viscosity";
 /// At a held jump the traction of a softening law relaxes from step to step.
 ///
 /// State: that of the law, then the last jump (mm) and `viscous_energy`.
-#[derive(Debug)]
-pub struct Viscous<L> {
-    law: L,
+#[derive(Debug, Clone)]
+pub struct Viscous {
+    law: Arc<dyn Material<Interface>>,
     share: f64,
     vars: Vec<StateVar>,
 }
 
-impl<L: Material<Interface>> Viscous<L> {
+impl Viscous {
     /// Admits the share `share` in (0, 1] of the growth in a step; 1 changes nothing.
     ///
     /// # Errors
     ///
     /// [`MaterialError::Parameter`] for a share out of range.
-    pub fn new(law: L, share: f64) -> Result<Self, MaterialError> {
+    pub fn new(law: Arc<dyn Material<Interface>>, share: f64) -> Result<Self, MaterialError> {
         if !(share > 0.0 && share <= 1.0) {
             return Err(out_of_range(
                 LAW,
@@ -57,7 +59,7 @@ impl<L: Material<Interface>> Viscous<L> {
     }
 
     /// The law without viscosity.
-    pub const fn law(&self) -> &L {
+    pub const fn law(&self) -> &Arc<dyn Material<Interface>> {
         &self.law
     }
 
@@ -67,7 +69,7 @@ impl<L: Material<Interface>> Viscous<L> {
     }
 }
 
-impl<L: Material<Interface>> Material<Interface> for Viscous<L> {
+impl Material<Interface> for Viscous {
     fn name(&self) -> &'static str {
         self.law.name()
     }

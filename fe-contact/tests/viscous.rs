@@ -3,6 +3,8 @@
 //! Targets: work = dissipation of the damage + energy in store, whatever the viscosity; the viscous part vanishes with finer
 //! steps of the same share, and tangent and energy agree with the contract of a law.
 
+use std::sync::Arc;
+
 use fe_contact::envelope::{Bilinear, LuJoint};
 use fe_contact::{BondSettings, SlipDamage, Viscous};
 use fe_core::material::{Material, MaterialError, Operator, PointContext};
@@ -16,8 +18,9 @@ fn bond() -> Bilinear {
     joint.bilinear().unwrap()
 }
 
-fn law(share: f64) -> Result<Viscous<SlipDamage>, MaterialError> {
-    Viscous::new(SlipDamage::new(bond(), BondSettings::default())?, share)
+fn law(share: f64) -> Result<Viscous, MaterialError> {
+    let law = SlipDamage::new(bond(), BondSettings::default())?;
+    Viscous::new(Arc::new(law), share)
 }
 
 /// Monotone slip to 0.5 mm, beyond s_f, in `n` steps: work and viscous energy.
