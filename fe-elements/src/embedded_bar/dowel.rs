@@ -67,7 +67,27 @@ pub(super) struct Answer {
 }
 
 impl Dowel {
-    /// A dowel without bound, from the foundation stiffness of He and Kwan (2001): k = 127 c sqrt(fc)/phi^(2/3) (N/mm3) with c = 0.8,
+    /// A dowel without bound of V per unit of shear strain (N), in the plane of the given normal.
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Input`] for a stiffness that is not positive, or a normal without length or direction.
+    pub fn new(stiffness_n: f64, plane_normal: [f64; 3]) -> Result<Self, ElementError> {
+        admit(&[("stiffness_n", stiffness_n)])?;
+        let normal = plane_normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+        positive(
+            "length of plane_normal",
+            normal,
+            "give the normal of the plane in which the dowel acts",
+        )?;
+        Ok(Self {
+            stiffness_n,
+            plane_normal: plane_normal.map(|x| x / normal),
+            strength: None,
+        })
+    }
+
+    /// The dowel of [`Self::new`] from the foundation stiffness of He and Kwan (2001): k = 127 c sqrt(fc)/phi^(2/3) (N/mm3) with c = 0.8,
     /// beta = (k phi/(4 E I))^(1/4) (1/mm), stiffness = E I beta^3 h (N). The constants 127 and 0.8 are assumed:
     /// they are quoted here at second hand.
     ///
@@ -88,23 +108,28 @@ impl Dowel {
             ("band_width_mm", band_width_mm),
         ];
         admit(&inputs)?;
-        let normal = plane_normal.iter().map(|x| x * x).sum::<f64>().sqrt();
-        positive(
-            "length of plane_normal",
-            normal,
-            "give the normal of the plane in which the dowel acts",
-        )?;
         let inertia = std::f64::consts::PI * diameter_mm.powi(4) / 64.0;
         let foundation = 127.0 * 0.8 * fc_mpa.sqrt() / diameter_mm.powf(2.0 / 3.0);
         let beta = (foundation * diameter_mm / (4.0 * young_mpa * inertia)).powf(0.25);
-        Ok(Self {
-            stiffness_n: young_mpa * inertia * beta.powi(3) * band_width_mm,
-            plane_normal: plane_normal.map(|x| x / normal),
-            strength: None,
-        })
+        Self::new(
+            young_mpa * inertia * beta.powi(3) * band_width_mm,
+            plane_normal,
+        )
     }
 
-    /// The same with the strength of CEB-FIP Model Code 1990, 3.10 (without eccentricity and partial factors), after Rasmussen (1963),
+    /// The same with a strength V_u = V_0 sqrt(1 - (sigma/fy)^2): V_0 (N) where the bar carries no axial stress, and its yield stress
+    /// fy (MPa).
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError::Input`] for a value that is not positive.
+    pub fn with_strength(mut self, free_n: f64, yield_mpa: f64) -> Result<Self, ElementError> {
+        admit(&[("free_n", free_n), ("yield_mpa", yield_mpa)])?;
+        self.strength = Some(Strength { free_n, yield_mpa });
+        Ok(self)
+    }
+
+    /// [`Self::with_strength`] with the strength of CEB-FIP Model Code 1990, 3.10 (without eccentricity and partial factors), after Rasmussen (1963),
     /// at second hand:
     ///
     /// V_u = V_0 sqrt(1 - (sigma/fy)^2), V_0 = 1.3 phi^2 sqrt(fc fy), no more than A fy/sqrt(3).
@@ -115,7 +140,7 @@ impl Dowel {
     ///
     /// [`ElementError::Input`] for a value that is not positive.
     pub fn bounded(
-        mut self,
+        self,
         diameter_mm: f64,
         fc_mpa: f64,
         yield_mpa: f64,
@@ -127,11 +152,7 @@ impl Dowel {
         ])?;
         let area = std::f64::consts::FRAC_PI_4 * diameter_mm * diameter_mm;
         let concrete = 1.3 * diameter_mm * diameter_mm * (fc_mpa * yield_mpa).sqrt();
-        self.strength = Some(Strength {
-            free_n: concrete.min(area * yield_mpa / 3.0_f64.sqrt()),
-            yield_mpa,
-        });
-        Ok(self)
+        self.with_strength(concrete.min(area * yield_mpa / 3.0_f64.sqrt()), yield_mpa)
     }
 
     /// The dowel of `count` such bars in one place.
@@ -229,6 +250,18 @@ mod tests {
         assert!((above.force + 10_685.0).abs() < 1.0 && above.stiffness == 0.0);
         let back = dowel.at(-2.5 * yielding, above.slid, 0.0);
         assert!((back.force + 0.5 * 10_685.0).abs() < 1.0 && back.slid == above.slid);
+    }
+
+    /// A dowel of the same two numbers is the same, whatever they come from.
+    #[test]
+    fn a_dowel_is_its_stiffness_and_strength() {
+        let dowel = bounded();
+        let (free, yielding) = (dowel.strength.unwrap().free_n, 350.0);
+        let same = Dowel::new(dowel.stiffness_n, [0.0, 0.0, 2.0])
+            .and_then(|same| same.with_strength(free, yielding));
+        assert_eq!(same, Ok(dowel));
+        assert!(Dowel::new(0.0, [0.0, 0.0, 1.0]).is_err());
+        assert!(dowel.with_strength(free, f64::NAN).is_err());
     }
 
     /// Half the yield stress along the axis leaves sqrt(3)/2 of the strength across it, yielding leaves none; the slope is that of
