@@ -48,3 +48,7 @@ pub use elastic::Elastic;
 pub use fe_core::{kinematics, material, point};
 pub use lamina::{Lamina, LaminaParameters, Laminate, Ply};
 pub use von_mises::VonMises;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,9 +1,11 @@
 //! Orthogonal smeared cracks, fixed once they have opened some way, with irreversible shear transfer: the default law of the beams.
 //!
-//! **Uncracked**, the law is isotropic. With the equivalent uniaxial strains
-//! e~_i = sum_j Q_ij e_j, Q = C(E, nu)/E, of the principal strains,
+//! **Uncracked**, the law is isotropic. With the equivalent uniaxial strains of the principal strains e and the stiffness C of
+//! isotropic elasticity,
 //!
-//! sigma_i = E e~_i for e~_i >= 0,  sigma_i = Ec(kc_i) e~_i for e~_i < 0,
+//! $$ \tilde e_i = \sum_j Q_{ij} e_j, \qquad Q = \frac{C(E, \nu)}{E}, \qquad
+//! \sigma_i = \begin{cases} E \tilde e_i & \tilde e_i \ge 0 \cr
+//! E_c(k_{c,i}) \tilde e_i & \tilde e_i < 0, \end{cases} $$
 //!
 //! Ec being the secant of the compression envelope at kc_i, the largest -e~_i/K_i ever. K_i >= 1 is the
 //! [confinement](Confinement) by the pressures on the other axes, p_j = Ec <-e~_j> as if nothing confined those: it makes
@@ -22,17 +24,22 @@
 //!
 //! **Cracked**, in these axes, with the histories kt_i = max e_i and kc_i = max(-e_i/K_i), p_j = Ec <-e_j>,
 //!
-//! sigma_i = Et(kt_i) e_i for e_i >= 0,  beta_i Ec(kc_i) e_i for e_i < 0,
-//! tau = b G0 gamma,  b = max(b_min, min over the axes of Et(kt)/E and Ec(kc)/E),
+//! $$ \sigma_i = \begin{cases} E_t(k_{t,i}) e_i & e_i \ge 0 \cr
+//! \beta_i E_c(k_{c,i}) e_i & e_i < 0, \end{cases} \qquad
+//! \tau = b G_0 \gamma, \qquad
+//! b = \max\left(b_{min}, \min_i \frac{E_t(k_{t,i})}{E}, \min_i \frac{E_c(k_{c,i})}{E}\right), $$
 //!
-//! of all axes for the shear across the first crack (components ns and nt), of s and t for the shear in its plane (st);
-//! or more where aggregate interlocks, see [`ShearTransfer`], which limits the stress too. beta_i <= 1 is the
+//! over all axes i for the shear across the first crack (components ns and nt), over s and t for the shear in its plane (st);
+//! b is more where aggregate interlocks, see [`ShearTransfer`], which limits the stress too. beta_i <= 1 is the
 //! [compression softening](CompressionSoftening) by the cracks across axis i. While s and t turn, one history kc serves both.
 //!
 //! The share of the elastic shear that is carried is a history variable too and never grows. So every term of the free
-//! energy psi = 1/2 sum Esec_i e_i^2 + 1/2 sum b G0 gamma^2 falls with growing history at fixed strain, and the cracked law
-//! never creates energy. Taking b from the current secant instead would: when a crack closes the factor jumps back to one
-//! with a large shear strain standing.
+//! energy
+//!
+//! $$ \psi = \tfrac12 \sum_i E_{sec,i} e_i^2 + \tfrac12 \sum b G_0 \gamma^2 $$
+//!
+//! falls with growing history at fixed strain, and the cracked law never creates energy. Taking b from the current secant
+//! instead would: when a crack closes the factor jumps back to one with a large shear strain standing.
 //!
 //! The growth of the histories in a step is scaled by the relaxation a of the context (backward Euler of
 //! k' = <e - k>/tau, a = dt/(tau + dt)).
