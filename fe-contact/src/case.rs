@@ -2,7 +2,7 @@
 
 use fe_core::kinematics::Interface;
 use fe_core::material::{Material, MaterialError};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::envelope::{
     Bilinear, BilinearEnergy, BilinearSlips, Envelope, Exponential, ExponentialParameters, LuJoint,
@@ -11,7 +11,7 @@ use crate::envelope::{
 use crate::{BondSettings, MixedMode, MixedModeParameters, SlipDamage};
 
 /// A law of this crate with its parameters; units in the names of the fields.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum BondCase {
     /// [`SlipDamage`] after a curve.
@@ -30,7 +30,7 @@ pub enum BondCase {
 }
 
 /// A curve of bond stress over slip.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum CurveCase {
     /// [`Bilinear::from_slips`].

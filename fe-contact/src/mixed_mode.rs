@@ -5,7 +5,7 @@ use fe_core::material::{
     Material, MaterialError, Operator, PointContext, PointReport, Response, StateVar,
 };
 use nalgebra::{Matrix3, Vector3};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::limits::{finite, out_of_range, positive};
 
@@ -17,7 +17,7 @@ const OPERATOR_FLOOR: f64 = 1e-4;
 const STATE_VARS: [StateVar; 1] = [StateVar::scalar("damage", "-")];
 
 /// Parameters of [`MixedMode`].
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MixedModeParameters {
     /// Initial stiffness K of every component (MPa/mm).

@@ -1,12 +1,12 @@
 //! What a bond law does along the normal, and against singular matrices.
 
 use fe_core::material::MaterialError;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::limits::{out_of_range, positive};
 
 /// Behaviour along the normal of the interface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Normal {
     /// sigma_n = K_n n, open or closed, whatever the damage: the faces stay together.
     #[default]
@@ -17,7 +17,7 @@ pub enum Normal {
 }
 
 /// Settings that every bond law on the slip shares.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct BondSettings {
     /// Behaviour along the normal.

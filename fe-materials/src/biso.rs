@@ -5,7 +5,7 @@ use fe_core::material::{
     Material, MaterialError, Operator, PointContext, PointReport, Response, StateVar,
 };
 use nalgebra::{Matrix1, Vector1};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::limits::{finite, out_of_range, positive};
 
@@ -18,7 +18,7 @@ const COLD_WORKED_YIELD: f64 = 0.85;
 const COLD_WORKED_STRAIN: f64 = 0.010;
 
 /// How the elastic range of a bar moves with plastic strain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Hardening {
     /// The range grows: yielding in one direction raises the yield stress in both.
     #[default]

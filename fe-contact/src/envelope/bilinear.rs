@@ -1,7 +1,7 @@
 //! The bilinear curve.
 
 use fe_core::material::MaterialError;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::Envelope;
 use crate::limits::{out_of_range, positive};
@@ -22,7 +22,7 @@ pub struct Bilinear {
 }
 
 /// Parameters of a [`Bilinear`] curve by its slips.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BilinearSlips {
     /// Largest stress tau_max (MPa).
@@ -34,7 +34,7 @@ pub struct BilinearSlips {
 }
 
 /// Parameters of a [`Bilinear`] curve by its stiffness and fracture energy.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BilinearEnergy {
     /// Largest stress tau_max (MPa).

@@ -3,7 +3,7 @@
 use std::f64::consts::E;
 
 use fe_core::material::MaterialError;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Envelope, LOST};
 use crate::limits::positive;
@@ -24,7 +24,7 @@ pub struct Exponential {
 }
 
 /// Parameters of an [`Exponential`] curve.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExponentialParameters {
     /// Largest stress tau_max (MPa).

@@ -1,7 +1,7 @@
 //! The bond of externally bonded sheets after Lu, Teng, Ye and Jiang.
 
 use fe_core::material::MaterialError;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Bilinear, BilinearSlips, Envelope, LOST};
 use crate::limits::{out_of_range, positive};
@@ -19,7 +19,7 @@ const PRECISE: &str = "precise bond of Lu et al.";
 ///
 /// Source: X. Z. Lu, J. G. Teng, L. P. Ye and J. J. Jiang, "Bond-slip models for FRP sheets/plates bonded to
 /// concrete", Engineering Structures 27 (2005) 920-937.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LuJoint {
     /// Tensile strength of the concrete f_t (MPa).

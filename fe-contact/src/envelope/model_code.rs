@@ -1,7 +1,7 @@
 //! The bond of ribbed bars after fib Model Code 2010.
 
 use fe_core::material::MaterialError;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::Envelope;
 use crate::limits::{out_of_range, positive};
@@ -12,7 +12,7 @@ const LAW: &str = "bond of the Model Code";
 const START: f64 = 0.01;
 
 /// Bond conditions of a bar in the form (fib Model Code 2010, 6.1.3.2).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Bond {
     /// Good bond conditions.
     Good,
@@ -21,7 +21,7 @@ pub enum Bond {
 }
 
 /// What ends the bond.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Confinement {
     /// Pull-out: cover and confinement keep the concrete from splitting.
     #[default]
@@ -33,7 +33,7 @@ pub enum Confinement {
 }
 
 /// Parameters of [`ModelCode`].
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelCodeParameters {
     /// Mean cylinder strength of the concrete f_cm (MPa).

@@ -1,14 +1,14 @@
 //! Concrete of a case.
 
 use fe_core::material::MaterialError;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::CaseError;
 use crate::concrete::ConcreteScalars;
 
 /// A concrete by its cylinder strength, from which [`ConcreteScalars`] follow; a property that is given
 /// replaces the derived one. Exactly one of the two strengths.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ConcreteCase {
     /// Characteristic strength fck (MPa).

@@ -2,7 +2,7 @@
 
 use fe_core::kinematics::{Axial, PlaneStress, Solid};
 use fe_core::material::{Material, PointContext};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{CaseError, ConcreteCase};
 use crate::concrete::{
@@ -16,7 +16,7 @@ use crate::fixed_crack::{
 use crate::{Biso, Elastic, Hardening, Lamina, LaminaParameters, Laminate, Ply, VonMises};
 
 /// A law of this crate with its parameters; units in the names of the fields.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum LawCase {
     /// [`Elastic`] solid.
@@ -157,7 +157,7 @@ pub enum LawCase {
 }
 
 /// One ply of a [`LawCase::Laminate`].
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlyCase {
     /// The sheet.

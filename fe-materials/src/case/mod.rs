@@ -28,7 +28,7 @@ mod tests;
 use fe_core::kinematics::Kinematics;
 use fe_core::material::{Material, PointContext};
 use fe_core::point::{PointDriver, PointError, PointHistory};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 pub use concrete::ConcreteCase;
 pub use error::CaseError;
@@ -36,7 +36,7 @@ pub use law::{BuiltLaw, LawCase, PlyCase};
 pub use program::SegmentCase;
 
 /// A material point and what it goes through.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PointCase {
     /// What the case shows.

@@ -6,12 +6,12 @@ use std::fmt;
 use fe_core::kinematics::Kinematics;
 use fe_core::point::{Control, Segment};
 use serde::de::{Error, MapAccess, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::CaseError;
 
 /// A ramp of every component from its present value to a target.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SegmentCase {
     /// Strains (-) by name.

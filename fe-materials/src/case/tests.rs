@@ -35,7 +35,7 @@ const CONCRETE: &str = "concrete: (fck_mpa: 30)";
 const SHEET: &str = "sheet: (young_1_mpa: 228000, young_2_mpa: 10, shear_mpa: 10, poisson_12: 0, \
                      strength_mpa: 3790)";
 
-/// Every law of the crate under uniaxial strain, everything else free of stress. Target: a finite stress
+/// Every law of the crate, also written down and read again, under uniaxial strain, everything else free of stress. Target: a finite stress
 /// of the sign of the strain.
 #[test]
 fn every_law_can_be_written_down_and_run() {
@@ -61,9 +61,9 @@ fn every_law_can_be_written_down_and_run() {
     ];
     for (laws, name) in [(&solid[..], "eps_xx"), (&sheet, "eps_11"), (&bar, "eps")] {
         for law in laws {
-            let run = case(law, &format!("strain: {{{name:?}: -0.001}}"))
-                .run()
-                .unwrap();
+            let case = case(law, &format!("strain: {{{name:?}: -0.001}}"));
+            assert_eq!(parse(&ron::to_string(&case).unwrap()).as_ref(), Ok(&case));
+            let run = case.run().unwrap();
             assert_eq!(run.result, Ok(()), "{law}");
             let last = run.history.rows().last().unwrap();
             assert!(last.stress[0].is_finite() && last.stress[0] < 0.0, "{law}");

@@ -1,7 +1,7 @@
 //! Compression softening: concrete between cracks is weaker than a cylinder.
 
 /// How cracks across a compressed axis weaken it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum CompressionSoftening {
     /// Not at all.
     None,

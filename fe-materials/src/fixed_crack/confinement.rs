@@ -6,7 +6,7 @@ use super::FixedCrack;
 use super::curves::Compression;
 
 /// What pressure across an axis does to the compression along it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Confinement {
     /// Nothing.
     #[default]

@@ -13,7 +13,7 @@ pub(super) const RESIDUAL_COMPRESSION: f64 = 0.1;
 
 /// Tension softening of one axis from e_cr = ft/E on, regularised by the crack band h (Bazant and Oh 1983): the area
 /// under the curve, rise included, is G_F/h.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum TensionSoftening {
     /// sigma = ft (e_u - k)/(e_u - e_cr), e_u = 2 G_F/(ft h).
     Linear,

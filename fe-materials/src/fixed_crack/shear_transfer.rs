@@ -4,7 +4,7 @@ use super::{FixedCrackParameters, out_of_range};
 use fe_core::material::MaterialError;
 
 /// What carries shear across cracks beside the bridges that tension softening counts.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum ShearTransfer {
     /// Nothing: tau = b G0 gamma, b = max(b_min, min over the axes of Et(kt)/E and Ec(kc)/E), damage-based retention as in
     /// DIANA, made irreversible; without a limit on the stress.

@@ -5,7 +5,7 @@ mod laminate;
 use fe_core::kinematics::PlaneStress;
 use fe_core::material::{Material, MaterialError, PointContext, PointReport, Response, StateVar};
 use nalgebra::{Matrix3, Vector3};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::limits::{finite, out_of_range, positive};
 
@@ -14,7 +14,7 @@ pub use laminate::{Laminate, Ply};
 const LAW: &str = "lamina";
 
 /// Parameters of a [`Lamina`]; axis 1 is the direction of the fibres.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LaminaParameters {
     /// Young's modulus E1 along the fibres (MPa).

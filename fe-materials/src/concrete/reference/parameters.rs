@@ -2,7 +2,7 @@
 
 use fe_core::material::MaterialError;
 use nalgebra::Vector3;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::LAW;
 use crate::concrete::ConcreteScalars;
@@ -12,7 +12,7 @@ use crate::limits::{out_of_range, positive};
 const VERTICAL_LIMIT: f64 = 0.258_819_045_102_520_76;
 
 /// Which cracks of a region keep tension stiffening (rule of Titello for reinforced concrete beams).
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum TensionStiffening {
     /// Stirrups cross the region: every crack.
     Stirrups,
@@ -38,7 +38,7 @@ impl TensionStiffening {
 }
 
 /// Shear retention factor b of an open crack as a function of the strain e normal to it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum ShearRetention {
     /// b = 1 up to e = 0.01, then max(b_min, 1 - sqrt(e/0.005)), which is b_min: the reference as printed.
     #[default]
