@@ -193,7 +193,7 @@ impl Places {
                 places[i * n + j] = place;
                 if i != j && row == column && place != NONE {
                     twice.push(Entry {
-                        place: place | ABOVE,
+                        place: place & !ABOVE,
                         row: i as u16,
                         column: j as u16,
                     });
