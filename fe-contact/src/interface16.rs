@@ -166,39 +166,14 @@ impl Interface16 {
     }
 }
 
-/// Sums of w J N_a N_b D_ij by direction i, direction j, node a, node b: vectors along the last.
-type Sums = [[[[f64; 8]; 8]; 3]; 3];
-
-/// Adds N_a N_b d_ij of one point.
-fn add(sums: &mut Sums, values: &[f64; 8], d: &Matrix3<f64>) {
-    for (a, value) in values.iter().enumerate() {
-        let products = values.map(|other| value * other);
-        for i in 0..3 {
-            for j in 0..3 {
-                for (sum, product) in sums[i][j][a].iter_mut().zip(products) {
-                    *sum += product * d[(i, j)];
-                }
-            }
-        }
-    }
-}
-
 /// Adds the blocks of the stiffness: minus between the faces, plus within each.
-fn spread(sums: &Sums, stiffness: &mut [f64]) {
+fn spread(sums: &[[[[f64; 3]; 3]; 8]; 8], stiffness: &mut [f64]) {
     for (row, out) in stiffness.chunks_exact_mut(N).enumerate() {
         let (a, i) = (row / 3, row % 3);
-        let (lower, upper) = out.split_at_mut(N / 2);
-        let (same, other) = if a < 8 {
-            (lower, upper)
-        } else {
-            (upper, lower)
-        };
-        let pairs = same.chunks_exact_mut(3).zip(other.chunks_exact_mut(3));
-        for (b, (same, other)) in pairs.enumerate() {
-            for j in 0..3 {
-                let k = sums[i][j][a % 8][b];
-                same[j] += k;
-                other[j] -= k;
+        for (b, out) in out.chunks_exact_mut(3).enumerate() {
+            let block = &sums[a % 8][b % 8][i];
+            for (out, k) in out.iter_mut().zip(block) {
+                *out += if (a < 8) == (b < 8) { *k } else { -*k };
             }
         }
     }
@@ -254,8 +229,8 @@ impl Element for Interface16 {
         let law = self.law.as_ref();
         let point_ctx = points::context(self.size, ctx);
         let nodes = jumps(u);
-        // The blocks of K are copies of these.
-        let mut sums: Option<Sums> = (ctx.operator != Operator::None).then(Sums::default);
+        // Sums of w J N_a N_b D, of which the blocks of K are copies.
+        let mut sums = (ctx.operator != Operator::None).then_some([[[[0.0; 3]; 3]; 8]; 8]);
         for (p, point) in self.points.iter().enumerate() {
             let states = (committed, &mut *trial);
             let response = points::answer(law, (p, &point.jump(&nodes)), states, &point_ctx)?;
@@ -272,7 +247,16 @@ impl Element for Interface16 {
                 continue;
             };
             let d = point.axes.tr_mul(&response.tangent) * point.axes * point.area;
-            add(sums, &point.values, &d);
+            for a in 0..8 {
+                for b in 0..8 {
+                    let factor = point.values[a] * point.values[b];
+                    for i in 0..3 {
+                        for j in 0..3 {
+                            sums[a][b][i][j] += factor * d[(i, j)];
+                        }
+                    }
+                }
+            }
         }
         if let Some(sums) = sums {
             spread(&sums, out.stiffness);
