@@ -235,4 +235,10 @@ impl Mesh {
         }
         corners
     }
+
+    /// Longest side of the bounding box (mm).
+    pub fn extent(&self) -> f64 {
+        let [low, high] = self.bounding_box();
+        (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max)
+    }
 }

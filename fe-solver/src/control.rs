@@ -440,11 +440,9 @@ impl StepControl {
 /// Whether an attempt that misses the criterion ends in a state of the model, and has not diverged: what breaks off may go
 /// far, but not by more than the size of the model, in which displacements are small.
 fn is_a_state(stage: &Stage<'_>, attempt: &Attempt) -> bool {
-    let [low, high] = stage.model().mesh().bounding_box();
-    let size = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
     let ways = attempt.displacement.iter().zip(stage.displacement());
     let farthest = ways.map(|(to, from)| (to - from).abs()).fold(0.0, f64::max);
-    attempt.residual.relative <= UNBALANCED && farthest <= size
+    attempt.residual.relative <= UNBALANCED && farthest <= stage.model().mesh().extent()
 }
 
 /// Gives an attempt up for a shorter step.

@@ -94,8 +94,7 @@ fn levers(model: &Model) -> Vec<f64> {
     if !kinds.clone().any(turns) {
         return Vec::new();
     }
-    let [low, high] = model.mesh().bounding_box();
-    let extent = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
+    let extent = model.mesh().extent();
     let extent = if extent > 0.0 { extent } else { 1.0 };
     kinds
         .map(|dof| if turns(dof) { extent } else { 1.0 })
