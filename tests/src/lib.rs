@@ -15,6 +15,7 @@ pub mod driven;
 pub mod figure;
 pub mod follow;
 pub mod hourglass;
+pub mod journal;
 pub mod laws;
 pub mod mesh;
 pub mod panel;

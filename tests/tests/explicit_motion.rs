@@ -3,8 +3,6 @@
 //! Source: the static solution of the same model. Target: mean load of the last of twenty steps within 1 % of it, kinetic
 //! energy below 1e-3 of the work, falling with the square of the rate; continued from a journal, the same to the last bit.
 
-use std::collections::VecDeque;
-use std::io;
 use std::sync::Arc;
 
 use fe_core::dof::Dof;
@@ -19,36 +17,17 @@ use fe_solver::driver::Driver;
 use fe_solver::explicit::{Explicit, ExplicitSettings};
 use fe_solver::journal::Entry;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings};
-use fe_solver::recorder::{Continue, Recorder, StepView};
 use fe_solver::stage::Stage;
+use fe_tests::journal::Journal;
 use fe_tests::mesh::{boxes, hexahedra, lines, nodes_where};
 
 /// What is looked at, step by step, with a journal.
 #[derive(Default)]
 struct Seen {
-    earlier: VecDeque<Entry>,
     kept: Vec<Entry>,
     loads: Vec<f64>,
     kinetic: Vec<Option<f64>>,
     residuals: Vec<f64>,
-}
-
-impl Recorder for Seen {
-    fn recall(&mut self) -> io::Result<Option<Entry>> {
-        Ok(self.earlier.pop_front())
-    }
-
-    fn keep(&mut self, entry: &Entry) -> io::Result<()> {
-        self.kept.push(entry.clone());
-        Ok(())
-    }
-
-    fn step(&mut self, view: &StepView<'_>) -> io::Result<Continue> {
-        self.loads.push(view.load);
-        self.kinetic.push(view.kinetic);
-        self.residuals.push(view.residual);
-        Ok(Continue::Yes)
-    }
 }
 
 /// The whole way in twenty steps, shared by drivers that follow one another.
@@ -72,14 +51,17 @@ fn run(drivers: &mut [&mut dyn Driver], earlier: Vec<Entry>) -> Seen {
     let mut state = StateStore::new(model.elements());
     let zero = vec![0.0; model.dofs().len()];
     let mut stage = Stage::new(&model, conditions, &mut state, zero).unwrap();
-    let mut seen = Seen {
-        earlier: earlier.into(),
-        ..Seen::default()
-    };
+    let mut seen = Seen::default();
+    let mut journal = Journal::after(earlier, |view| {
+        seen.loads.push(view.load);
+        seen.kinetic.push(view.kinetic);
+        seen.residuals.push(view.residual);
+    });
     let control = StepControl::new(0.05, 1.0 / drivers.len() as f64);
     for driver in drivers {
-        control.run(&mut stage, *driver, &mut seen).unwrap();
+        control.run(&mut stage, *driver, &mut journal).unwrap();
     }
+    seen.kept = journal.kept;
     seen
 }
 

@@ -17,26 +17,34 @@ use fe_solver::implex::Implex;
 use fe_solver::journal::Entry;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings, Refactor};
 use fe_solver::path::{ArcLength, Dissipation, FreeDisplacement, Mode, PathConstraint};
-use fe_solver::recorder::{Continue, Recorder, Silent, StepView};
+use fe_solver::recorder::Silent;
 use fe_solver::secant::SecantAnderson;
 use fe_solver::stage::Stage;
 use fe_solver::viscous::Viscous;
 use fe_tests::conditions::hold;
+use fe_tests::journal::Journal;
 use fe_tests::mesh::{boxes, hexahedra, lines, nodes_where};
 use std::sync::Arc;
 
-/// A row of cubes, held on the left and pulled on the right.
-fn row(cubes: usize) -> (Model, Conditions) {
+/// A row of cubes, held on the left.
+fn held(cubes: usize, law: &Arc<dyn Material<Solid>>) -> (Model, Conditions) {
     let (end, side) = (cubes as f64, [0.0, 1.0]);
     let mesh = boxes(&lines(0.0, end, cubes), &side, &side).unwrap();
-    let law: Arc<dyn Material<_>> = Arc::new(Elastic::new(100.0, 0.0).unwrap());
-    let elements = hexahedra(&mesh, HexRule::Full, &law).unwrap();
+    let elements = hexahedra(&mesh, HexRule::Full, law).unwrap();
     let model = Model::new(mesh, elements).unwrap();
     let mut conditions = Conditions::new(&model);
     hold(&model, &mut conditions, &Dof::DISPLACEMENTS, |x| {
         x[0] == 0.0
     })
     .unwrap();
+    (model, conditions)
+}
+
+/// A row of cubes, held on the left and pulled on the right.
+fn row(cubes: usize) -> (Model, Conditions) {
+    let law: Arc<dyn Material<_>> = Arc::new(Elastic::new(100.0, 0.0).unwrap());
+    let (model, mut conditions) = held(cubes, &law);
+    let end = cubes as f64;
     for node in nodes_where(model.mesh(), |x| x == [end, 0.0, 0.0]) {
         conditions
             .add_reference(&model, node, Dof::Ux, 1.0)
@@ -130,17 +138,9 @@ fn a_law_that_gives_no_number_ends_a_run() {
             Box::new(Explicit::default()),
         ];
         for mut driver in drivers {
-            let side = [0.0, 1.0];
-            let mesh = boxes(&lines(0.0, 2.0, 2), &side, &side).unwrap();
             let law: Arc<dyn Material<_>> =
                 Arc::new(Broken(Elastic::new(100.0, 0.0).unwrap(), nan));
-            let elements = hexahedra(&mesh, HexRule::Full, &law).unwrap();
-            let model = Model::new(mesh, elements).unwrap();
-            let mut conditions = Conditions::new(&model);
-            hold(&model, &mut conditions, &Dof::DISPLACEMENTS, |x| {
-                x[0] == 0.0
-            })
-            .unwrap();
+            let (model, mut conditions) = held(2, &law);
             for node in nodes_where(model.mesh(), |x| x[0] == 2.0) {
                 conditions.prescribe(&model, node, Dof::Ux, 1.0).unwrap();
             }
@@ -165,12 +165,9 @@ fn a_spoilt_journal_is_refused() {
         let zero = vec![0.0; model.dofs().len()];
         let mut stage = Stage::new(&model, conditions.clone(), &mut state, zero).unwrap();
         let mut driver = NewtonRaphson::new(NewtonSettings::default());
-        let mut journal = Journal {
-            earlier,
-            kept: None,
-        };
+        let mut journal = Journal::after(earlier, |_| {});
         let end = StepControl::new(1.0, 1.0).run(&mut stage, &mut driver, &mut journal);
-        (end, journal.kept)
+        (end, journal.kept.pop())
     };
     let entry = run(None).1.unwrap();
     assert!(run(Some(entry.clone())).0.is_ok());
@@ -198,27 +195,6 @@ fn a_spoilt_journal_is_refused() {
             ),
             "{i}: {end:?}"
         );
-    }
-}
-
-/// Keeps one step, and recalls one.
-struct Journal {
-    earlier: Option<Entry>,
-    kept: Option<Entry>,
-}
-
-impl Recorder for Journal {
-    fn recall(&mut self) -> std::io::Result<Option<Entry>> {
-        Ok(self.earlier.take())
-    }
-
-    fn keep(&mut self, entry: &Entry) -> std::io::Result<()> {
-        self.kept = Some(entry.clone());
-        Ok(())
-    }
-
-    fn step(&mut self, _view: &StepView<'_>) -> std::io::Result<Continue> {
-        Ok(Continue::Yes)
     }
 }
 

@@ -3,19 +3,16 @@
 //! Source: STR-03, closed form: 209 N, G_F A = 8 N mm. Targets: what each driver tells of its error is there, and falls
 //! with its cause.
 
-use std::collections::VecDeque;
-use std::io;
-
 use fe_core::state::StateStore;
 use fe_solver::control::StepControl;
 use fe_solver::driver::Driver;
 use fe_solver::implex::Implex;
 use fe_solver::journal::Entry;
 use fe_solver::newton::NewtonSettings;
-use fe_solver::recorder::{Continue, Recorder, StepView};
 use fe_solver::stage::Stage;
 use fe_solver::viscous::Viscous;
 use fe_tests::driven::{Driven, Leg, drive};
+use fe_tests::journal::Journal;
 use fe_tests::softening_bar::{STRENGTH, moved};
 
 fn draw(driver: &mut dyn Driver, step: f64) -> Driven {
@@ -64,25 +61,8 @@ fn steps_without_iteration_tell_that_they_are_no_equilibria() {
 /// Viscous work over the work of every step, with a journal.
 #[derive(Default)]
 struct Seen {
-    earlier: VecDeque<Entry>,
     kept: Vec<Entry>,
     viscous: Vec<Option<f64>>,
-}
-
-impl Recorder for Seen {
-    fn recall(&mut self) -> io::Result<Option<Entry>> {
-        Ok(self.earlier.pop_front())
-    }
-
-    fn keep(&mut self, entry: &Entry) -> io::Result<()> {
-        self.kept.push(entry.clone());
-        Ok(())
-    }
-
-    fn step(&mut self, view: &StepView<'_>) -> io::Result<Continue> {
-        self.viscous.push(view.viscous);
-        Ok(Continue::Yes)
-    }
 }
 
 /// Draws a virgin bar into its softening, beginning with the steps of an earlier run.
@@ -91,12 +71,13 @@ fn lead(driver: &mut Viscous, earlier: Vec<Entry>) -> Seen {
     let mut state = StateStore::new(model.elements());
     let zero = vec![0.0; model.dofs().len()];
     let mut stage = Stage::new(&model, conditions, &mut state, zero).unwrap();
-    let mut seen = Seen {
-        earlier: earlier.into(),
-        ..Seen::default()
-    };
+    let mut seen = Seen::default();
+    let mut journal = Journal::after(earlier, |view| {
+        seen.viscous.push(view.viscous);
+    });
     let control = StepControl::new(0.002, 0.044);
-    control.run(&mut stage, driver, &mut seen).unwrap();
+    control.run(&mut stage, driver, &mut journal).unwrap();
+    seen.kept = journal.kept;
     seen
 }
 
