@@ -230,26 +230,16 @@ impl Places {
                     .zip(first..)
                     .all(|(at, wanted)| places[at] == wanted)
         };
-        let count = if follow(3) {
-            3
-        } else if follow(2) {
-            2
-        } else {
-            1
+        let mut counts = [3, 2].into_iter();
+        let count = counts.find(|count| follow(*count)).unwrap_or(1);
+        let entries = match (count, in_column_of_row) {
+            (3, true) => &mut self.threes.in_rows,
+            (3, false) => &mut self.threes.in_columns,
+            (2, true) => &mut self.twos.in_rows,
+            (2, false) => &mut self.twos.in_columns,
+            _ => &mut self.single,
         };
-        let of_runs = |runs: &'_ mut Runs| {
-            let runs = if in_column_of_row {
-                &mut runs.in_rows
-            } else {
-                &mut runs.in_columns
-            };
-            runs.push(entry(first, i, j));
-        };
-        match count {
-            3 => of_runs(&mut self.threes),
-            2 => of_runs(&mut self.twos),
-            _ => self.single.push(entry(first, i, j)),
-        }
+        entries.push(entry(first, i, j));
         for at in along(count) {
             places[at] = NONE;
         }

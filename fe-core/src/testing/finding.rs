@@ -20,12 +20,7 @@ use std::panic::Location;
 /// If it misses: for tests.
 #[track_caller]
 pub fn within(what: &str, found: f64, target: f64, tolerance: f64) {
-    let goal = format!("{} ± {}", goal(target, tolerance), plain(tolerance));
-    tell(what, &rounded(found, tolerance), &goal);
-    assert!(
-        (found - target).abs() <= tolerance,
-        "{what}: {found} instead of {target}"
-    );
+    hold(what, found, (target, tolerance), &plain(tolerance));
 }
 
 /// Tells a value and holds it against a target, met within a share of it.
@@ -35,8 +30,14 @@ pub fn within(what: &str, found: f64, target: f64, tolerance: f64) {
 /// If it misses: for tests.
 #[track_caller]
 pub fn within_share(what: &str, found: f64, target: f64, share: f64) {
-    let tolerance = share * target.abs();
-    let goal = format!("{} ± {} %", goal(target, tolerance), plain(100.0 * share));
+    let told = format!("{} %", plain(100.0 * share));
+    hold(what, found, (target, share * target.abs()), &told);
+}
+
+/// Tells a value and its target with the tolerance in words, and holds one against the other.
+#[track_caller]
+fn hold(what: &str, found: f64, (target, tolerance): (f64, f64), told: &str) {
+    let goal = format!("{} ± {told}", goal(target, tolerance));
     tell(what, &rounded(found, tolerance), &goal);
     assert!(
         (found - target).abs() <= tolerance,
