@@ -164,18 +164,16 @@ impl Checks<'_> {
             );
         }
         let x = point.x_mm.get();
-        let below = self.specimen.supports.iter().find(|s| {
-            let half = 0.5 * s.plate.length_mm.get();
-            s.held.contains(&Held::Uy) && (s.x_mm.get() - x).abs() <= half + TOLERANCE
-        });
-        if let Some(support) = below {
-            let half = 0.5 * support.plate.length_mm.get();
+        let holding = self.specimen.supports.iter();
+        let holding = holding.filter(|s| s.held.contains(&Held::Uy));
+        let mut plates = holding.map(|s| (s.x_mm.get(), 0.5 * s.plate.length_mm.get()));
+        let below = plates.find(|(support, half)| (support - x).abs() <= half + TOLERANCE);
+        if let Some((support, half)) = below {
             self.report(
                 "measuring.deflection.x_mm",
                 format!(
-                    "deflection read at {x} mm, above the support at {} mm, which does not move; allowed: more than {half} mm \
-                     away from it",
-                    support.x_mm.get()
+                    "deflection read at {x} mm, above the support at {support} mm, which does not move; allowed: more than \
+                     {half} mm away from it",
                 ),
                 "read it in a span",
             );

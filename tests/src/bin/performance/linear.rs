@@ -52,6 +52,21 @@ fn dense_rate() -> f64 {
     2.0 * (n as f64).powi(3) / time / 1e9
 }
 
+/// Times (ms).
+#[derive(Clone, Copy)]
+struct Times {
+    assembly: f64,
+    /// The elements of it.
+    elements: f64,
+    analysis: f64,
+    factorisation: f64,
+    /// The factorisation on two threads.
+    on_two: f64,
+    solution: f64,
+    /// Everything from the grid to the reactions.
+    whole: f64,
+}
+
 /// The linear problem of one mesh.
 struct Linear {
     cells: [usize; 3],
@@ -59,12 +74,18 @@ struct Linear {
     entries: usize,
     flops: f64,
     ordering: Ordering,
-    /// Assembly, of it the elements, analysis, factorisation, the same on two threads, solution, and everything from the grid to the
-    /// reactions (s).
-    times: [f64; 7],
+    times: Times,
     memory: f64,
     reaction: f64,
     pardiso: Option<pardiso::Reference>,
+}
+
+impl Linear {
+    /// Name of the mesh.
+    fn mesh(&self) -> String {
+        let [x, y, z] = self.cells;
+        format!("{x}x{y}x{z}")
+    }
 }
 
 /// Free equations along the beam.
@@ -142,15 +163,15 @@ fn linear(cells: [usize; 3], times: usize) -> Result<Linear, Box<dyn Error>> {
         entries: stats.nnz_factor,
         flops: stats.factor_flops,
         ordering: stats.ordering,
-        times: [
-            assembly,
-            elements,
-            analysis,
-            factorisation,
-            on_two,
-            solution,
-            whole,
-        ],
+        times: Times {
+            assembly: 1e3 * assembly,
+            elements: 1e3 * elements,
+            analysis: 1e3 * analysis,
+            factorisation: 1e3 * factorisation,
+            on_two: 1e3 * on_two,
+            solution: 1e3 * solution,
+            whole: 1e3 * whole,
+        },
         memory,
         reaction,
         pardiso,
@@ -180,7 +201,7 @@ pub fn section(text: &mut String) -> Result<(), Box<dyn Error>> {
     let mut rows = Vec::new();
     for (cells, times) in MESHES {
         let row = linear(cells, times)?;
-        let [
+        let Times {
             assembly,
             elements,
             analysis,
@@ -188,26 +209,24 @@ pub fn section(text: &mut String) -> Result<(), Box<dyn Error>> {
             on_two,
             solution,
             whole,
-        ] = row.times.map(|t| 1e3 * t);
+        } = row.times;
         let order = match row.ordering {
             Ordering::MinimumDegree => "minimum degree",
             _ => "both ends",
         };
         writeln!(
             text,
-            "| {}x{}x{} | {} | {order} | {:.2} | {:.3} | {assembly:.2} | {elements:.2} | {analysis:.1} | {factorisation:.1} | {:.0} % | {on_two:.1} | \
+            "| {} | {} | {order} | {:.2} | {:.3} | {assembly:.2} | {elements:.2} | {analysis:.1} | {factorisation:.1} | {:.0} % | {on_two:.1} | \
              {solution:.2} | {whole:.0} | {:.0} | {:.2} |",
-            row.cells[0],
-            row.cells[1],
-            row.cells[2],
+            row.mesh(),
             row.equations,
             row.entries as f64 / 1e6,
             row.flops / 1e9,
-            100.0 * row.flops / 1e9 / row.times[3] / dense,
+            row.flops / 1e7 / (1e-3 * factorisation) / dense,
             row.memory,
             row.reaction,
         )?;
-        eprintln!("{:?}: {factorisation:.1} ms", row.cells);
+        eprintln!("{}: {factorisation:.1} ms", row.mesh());
         rows.push(row);
     }
     let grows = |value: fn(&Linear) -> f64| {
@@ -218,10 +237,10 @@ pub fn section(text: &mut String) -> Result<(), Box<dyn Error>> {
         text,
         "\nWith the equations n grow: assembly n^{:.2}, entries of the factor n^{:.2}, factorisation n^{:.2}, solution n^{:.2}, \
          memory n^{:.2}.\n",
-        grows(|r| r.times[0]),
+        grows(|r| r.times.assembly),
         grows(|r| r.entries as f64),
-        grows(|r| r.times[3]),
-        grows(|r| r.times[5]),
+        grows(|r| r.times.factorisation),
+        grows(|r| r.times.solution),
         grows(|r| r.memory),
     )?;
     beside_pardiso(text, &rows)?;
@@ -242,14 +261,17 @@ fn beside_pardiso(text: &mut String, rows: &[Linear]) -> std::fmt::Result {
          |---|---|---|---|---|---|---|---|---|"
     )?;
     for row in rows {
-        let [_, _, analysis, factorisation, _, solution, _] = row.times.map(|t| 1e3 * t);
+        let Times {
+            analysis,
+            factorisation,
+            solution,
+            ..
+        } = row.times;
         let Some(p) = &row.pardiso else { continue };
         writeln!(
             text,
-            "| {}x{}x{} | {analysis:.1} | {:.1} | {factorisation:.1} | {:.1} | {} | {:.2} | {solution:.2} | {:.2} |",
-            row.cells[0],
-            row.cells[1],
-            row.cells[2],
+            "| {} | {analysis:.1} | {:.1} | {factorisation:.1} | {:.1} | {} | {:.2} | {solution:.2} | {:.2} |",
+            row.mesh(),
             p.analysis,
             p.factorisation,
             p.order.replace('-', " "),
