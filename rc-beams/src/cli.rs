@@ -43,7 +43,7 @@ enum Command {
         #[arg(required = true, value_name = "BEAM")]
         beams: Vec<String>,
         #[command(flatten)]
-        options: RunOptions,
+        options: Box<RunOptions>,
     },
     /// Report on the stored results of all beams of a folder: tables, curves, accuracy; nothing is run
     Report {

@@ -158,12 +158,16 @@ pub struct Cracks {
     #[arg(long, value_name = "FACTOR", value_parser = band_factor, allow_negative_numbers = true)]
     pub band_factor: Option<f64>,
 
+    /// Tensile strength over that of the preset
+    #[arg(long, value_name = "FACTOR", value_parser = factor, allow_negative_numbers = true)]
+    pub tensile_strength_factor: Option<f64>,
+
     /// Fracture energy over that of the Model Code
-    #[arg(long, value_name = "FACTOR", value_parser = energy_factor, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FACTOR", value_parser = factor, allow_negative_numbers = true)]
     pub fracture_energy_factor: Option<f64>,
 
     /// Crushing energy over 250 times the fracture energy of the Model Code
-    #[arg(long, value_name = "FACTOR", value_parser = energy_factor, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FACTOR", value_parser = factor, allow_negative_numbers = true)]
     pub crushing_energy_factor: Option<f64>,
 
     /// Largest aggregate (mm)
@@ -495,7 +499,7 @@ fn fixing_share(text: &str) -> Result<f64, String> {
     number(text, 0.01..=1.0)
 }
 
-fn energy_factor(text: &str) -> Result<f64, String> {
+fn factor(text: &str) -> Result<f64, String> {
     number(text, 0.25..=4.0)
 }
 

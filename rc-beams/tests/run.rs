@@ -81,9 +81,10 @@ fn a_load_that_still_rises_has_no_error_bar_and_no_ratio() {
     assert!(summary["numerical_error"].is_null() && summary["ratio_model_to_test"].is_null());
 }
 
-/// Target: less fracture energy carries less, less crushing energy nothing before anything crushes, to the last bit.
+/// Target: less tensile strength or fracture energy carries less, less crushing energy nothing before anything crushes, to the last
+/// bit.
 #[test]
-fn the_energies_of_cracking_and_crushing_can_be_varied_apart() {
+fn tensile_strength_and_energies_of_cracking_and_crushing_can_be_varied_apart() {
     let load = |flag: Option<&str>| {
         let folder = tempfile::tempdir().unwrap();
         let mut arguments = vec![
@@ -94,6 +95,7 @@ fn the_energies_of_cracking_and_crushing_can_be_varied_apart() {
         summary(folder.path())["peak_load_kn"].as_f64().unwrap()
     };
     let plain = load(None);
+    assert!(load(Some("--tensile-strength-factor")) < 0.97 * plain);
     assert!(load(Some("--fracture-energy-factor")) < 0.97 * plain);
     assert_eq!(load(Some("--crushing-energy-factor")), plain);
 }

@@ -34,27 +34,38 @@ pub(super) fn concrete_laws(
         .collect()
 }
 
-/// Mean properties of the concrete as the preset reads the reported strength.
-fn properties(specimen: &Specimen, preset: Preset) -> Result<ConcreteScalars, MaterialError> {
+/// Mean properties of the concrete as the settings read the report.
+fn properties(
+    specimen: &Specimen,
+    settings: &ModelSettings,
+) -> Result<ConcreteScalars, MaterialError> {
     let reported = &specimen.concrete;
     let strength = reported.reported_strength_mpa.get();
-    match preset {
-        Preset::Physical | Preset::Reference => ConcreteScalars::from_mean(strength),
-        Preset::Characteristic => Ok(ConcreteScalars {
+    let mut read = match settings.preset {
+        Preset::Physical | Preset::Reference => ConcreteScalars::from_mean(strength)?,
+        Preset::Characteristic => ConcreteScalars {
             fctm_mpa: reported.reported_tensile_mpa.get(),
             ..ConcreteScalars::from_characteristic(strength)?
-        }),
-    }
+        },
+    };
+    read.fctm_mpa *= settings.tensile_strength_factor;
+    Ok(read)
 }
 
-/// Mean compressive strength (MPa) as the preset reads the report.
-pub(super) fn mean_strength(specimen: &Specimen, preset: Preset) -> Result<f64, MaterialError> {
-    Ok(properties(specimen, preset)?.fcm_mpa)
+/// Mean compressive strength (MPa) as the settings read the report.
+pub(super) fn mean_strength(
+    specimen: &Specimen,
+    settings: &ModelSettings,
+) -> Result<f64, MaterialError> {
+    Ok(properties(specimen, settings)?.fcm_mpa)
 }
 
-/// Mean tensile strength (MPa) as the preset reads the report.
-pub(super) fn tensile_strength(specimen: &Specimen, preset: Preset) -> Result<f64, MaterialError> {
-    Ok(properties(specimen, preset)?.fctm_mpa)
+/// Mean tensile strength (MPa) as the settings read the report.
+pub(super) fn tensile_strength(
+    specimen: &Specimen,
+    settings: &ModelSettings,
+) -> Result<f64, MaterialError> {
+    Ok(properties(specimen, settings)?.fctm_mpa)
 }
 
 /// Law of the concrete in zones with or without stirrups. The fixed-crack law takes the reported modulus,
@@ -64,7 +75,7 @@ fn concrete(
     settings: &ModelSettings,
     stirrups: bool,
 ) -> Result<SolidLaw, MaterialError> {
-    let c = properties(specimen, settings.preset)?;
+    let c = properties(specimen, settings)?;
     Ok(match settings.law {
         Law::FixedCrack => {
             let young = specimen.concrete.young_mpa.get();

@@ -246,7 +246,7 @@ impl Beam {
             model,
             concrete,
             bands,
-            tensile_mpa: laws::tensile_strength(specimen, settings.preset)?,
+            tensile_mpa: laws::tensile_strength(specimen, settings)?,
             plates,
             bars,
             sheets,

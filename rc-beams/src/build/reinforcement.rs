@@ -185,7 +185,7 @@ fn dowel(
     if !settings.dowel {
         return Ok(None);
     }
-    let strength = laws::mean_strength(specimen, settings.preset)?;
+    let strength = laws::mean_strength(specimen, settings)?;
     let band = settings.nominal_band_width(specimen);
     let young = steel.young_mpa.get();
     let plane = [0.0, 0.0, 1.0];

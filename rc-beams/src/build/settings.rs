@@ -39,6 +39,8 @@ pub struct ModelSettings {
     pub shear_floor: f64,
     /// Crack-band width of the fixed-crack law over the side of the equivalent square in the plane of the beam.
     pub band_factor: f64,
+    /// Tensile strength of the fixed-crack law over that of the preset.
+    pub tensile_strength_factor: f64,
     /// Fracture energy of the fixed-crack law over that of its source.
     pub fracture_energy_factor: f64,
     /// The same of its crushing energy.
@@ -77,6 +79,7 @@ impl ModelSettings {
             fixing_share: FIXING_SHARE,
             shear_floor: 1e-4,
             band_factor: 1.0,
+            tensile_strength_factor: 1.0,
             fracture_energy_factor: 1.0,
             crushing_energy_factor: 1.0,
             bond: Bond::Cohesive,
@@ -143,6 +146,9 @@ impl ModelSettings {
         self.fixing_share = given.fixing_share.unwrap_or(self.fixing_share);
         self.shear_floor = given.shear_floor.unwrap_or(self.shear_floor);
         self.band_factor = given.band_factor.unwrap_or(self.band_factor);
+        self.tensile_strength_factor = given
+            .tensile_strength_factor
+            .unwrap_or(self.tensile_strength_factor);
         self.fracture_energy_factor = given
             .fracture_energy_factor
             .unwrap_or(self.fracture_energy_factor);

@@ -37,7 +37,7 @@ pub(super) fn slip(
     (count, diameter_mm): (u8, f64),
     (bond, held): (&BarBond, bool),
 ) -> Result<Option<Slip>, BuildError> {
-    let strength = laws::mean_strength(specimen, settings.preset)?;
+    let strength = laws::mean_strength(specimen, settings)?;
     let Some(parameters) = bond.parameters(strength) else {
         return Ok(None);
     };

@@ -11,6 +11,8 @@ pub struct Case {
     pub options: &'static str,
     /// Options of beams with sheets where they differ: their meshes have lines that strips need.
     pub with_sheets: Option<&'static str>,
+    /// Property of the concrete, in the file of the specimen, that is multiplied by a factor.
+    pub scaled: Option<(&'static str, f64)>,
     /// Its beams.
     pub beams: &'static [&'static str],
 }
@@ -29,9 +31,11 @@ impl Case {
     /// Its options, for a reader.
     pub fn written_options(&self) -> String {
         let options = format!("`{}`", self.options);
-        match self.with_sheets {
-            Some(other) => format!("{options}, with sheets `{other}`"),
-            None => options,
+        match (self.with_sheets, self.scaled) {
+            (Some(other), _) => format!("{options}, with sheets `{other}`"),
+            (None, Some((property, factor))) => format!("`{property}` times {factor}"),
+            (None, None) if self.options.is_empty() => String::new(),
+            (None, None) => options,
         }
     }
 }
@@ -62,7 +66,21 @@ const fn case(
         what,
         options,
         with_sheets: None,
+        scaled: None,
         beams,
+    }
+}
+
+/// Known beams with a property of their concrete that is `factor` times the reported one.
+const fn scaled(
+    name: &'static str,
+    what: &'static str,
+    property: &'static str,
+    factor: f64,
+) -> Case {
+    Case {
+        scaled: Some((property, factor)),
+        ..case(name, what, "", KNOWN)
     }
 }
 
@@ -149,7 +167,25 @@ pub const COARSE: [Case; 5] = meshes!(rows: 4, 6; columns: 52, 56, 60, 64, 68);
 pub const FINE: [Case; 5] = meshes!(rows: 6, 9; columns: 80, 84, 90, 92, 96);
 
 /// Parameters of the law, one at a time by 20 %.
-pub const PARAMETERS: [Case; 12] = [
+pub const PARAMETERS: [Case; 20] = [
+    scaled("fc-down", "reported strength", "reported_strength_mpa", 0.8),
+    scaled("fc-up", "reported strength", "reported_strength_mpa", 1.2),
+    scaled("young-down", "modulus", "young_mpa", 0.8),
+    scaled("young-up", "modulus", "young_mpa", 1.2),
+    scaled("poisson-down", "Poisson's ratio", "poisson", 0.8),
+    scaled("poisson-up", "Poisson's ratio", "poisson", 1.2),
+    case(
+        "ft-down",
+        "tensile strength",
+        "--tensile-strength-factor 0.8",
+        KNOWN,
+    ),
+    case(
+        "ft-up",
+        "tensile strength",
+        "--tensile-strength-factor 1.2",
+        KNOWN,
+    ),
     case(
         "gf-down",
         "fracture energy",

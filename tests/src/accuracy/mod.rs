@@ -3,6 +3,7 @@
 pub mod cases;
 pub mod cost;
 pub mod outcome;
+pub mod scaled;
 pub mod scatter;
 pub mod source;
 pub mod tables;

@@ -173,8 +173,9 @@ pub fn changes(outcomes: &Outcomes, cases: &[Case]) -> String {
 /// Error against the test (%) of each case, by beam, and its mean.
 pub fn sensitivities(outcomes: &Outcomes, cases: &[Case]) -> String {
     let mut text = header(&[&["", "options"], KNOWN, &["mean"]].concat());
-    let default = [(DEFAULT.what, "", DEFAULT.name)];
-    let others = cases.iter().map(|c| (c.what, c.options, c.name));
+    let default = [(DEFAULT.what, String::new(), DEFAULT.name)];
+    let others = cases.iter();
+    let others = others.map(|c| (c.what, c.written_options(), c.name));
     for (what, options, name) in default.into_iter().chain(others) {
         let cells = KNOWN
             .iter()
@@ -183,14 +184,7 @@ pub fn sensitivities(outcomes: &Outcomes, cases: &[Case]) -> String {
         let complete = errors.len() == KNOWN.len();
         let mean = complete.then(|| 100.0 * mean(&errors, f64::abs));
         let mean = fixed(mean, 1);
-        let first = [
-            what.to_owned(),
-            if options.is_empty() {
-                String::new()
-            } else {
-                format!("`{options}`")
-            },
-        ];
+        let first = [what.to_owned(), options];
         text += &row(first.into_iter().chain(cells).chain([mean]));
     }
     text

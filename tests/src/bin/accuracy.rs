@@ -14,6 +14,7 @@ use fe_tests::accuracy::cases::{
     COARSE, Case, DEFAULT, FINE, MOTION, NUMERICS, PARAMETERS, SOURCE, TWICE,
 };
 use fe_tests::accuracy::outcome::Outcome;
+use fe_tests::accuracy::scaled::scaled;
 use fe_tests::accuracy::tables::{Outcomes, beams, changes, coverage, sensitivities, statistics};
 use fe_tests::accuracy::{cost, scatter, source};
 use fe_tests::document::fill;
@@ -108,8 +109,9 @@ fn run(program: &Path, folder: &Path, case: &Case, beam: &str) -> Result<(), Str
         return Ok(());
     }
     eprintln!("{beam} {}", case.name);
+    let specimen = specimen(&results, case, beam)?;
     let mut command = Command::new(program);
-    command.args(["run", beam, "--threads", "1", "--resume"]);
+    command.args(["run", &specimen, "--threads", "1", "--resume"]);
     command
         .args(case.options_of(beam))
         .arg("--output")
@@ -119,4 +121,20 @@ fn run(program: &Path, folder: &Path, case: &Case, beam: &str) -> Result<(), Str
     status
         .map(|_| ())
         .map_err(|e| format!("{}: {e}", program.display()))
+}
+
+/// What is run: a beam by its name, or a file of it with another concrete, written beside its results.
+fn specimen(results: &Path, case: &Case, beam: &str) -> Result<String, String> {
+    let Some((property, factor)) = case.scaled else {
+        return Ok(beam.into());
+    };
+    let known = Path::new("rc-beams/specimens").join(format!("{beam}.ron"));
+    let text = fs::read_to_string(&known).map_err(|e| format!("{}: {e}", known.display()))?;
+    let text = scaled(&text, property, factor)
+        .ok_or_else(|| format!("{}: no {property} of the concrete", known.display()))?;
+    let file = results.join(format!("{beam}.ron"));
+    fs::create_dir_all(results)
+        .and_then(|()| fs::write(&file, text))
+        .map_err(|e| format!("{}: {e}", file.display()))?;
+    Ok(file.to_string_lossy().into_owned())
 }
