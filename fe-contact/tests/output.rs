@@ -35,7 +35,7 @@ fn slip_and_damage_are_drawn() {
         u[model.dof(node, fe_core::dof::Dof::Uy).unwrap()] = 0.1;
     }
     let mut state = StateStore::new(model.elements());
-    let mut assembler = Assembler::new(&model, &Conditions::new(&model));
+    let mut assembler = Assembler::new(&model, &Conditions::new(&model)).unwrap();
     let ctx = EvaluationContext::new(Operator::None);
     let mut assembled = fe_core::assembly::Assembled::default();
     assembler

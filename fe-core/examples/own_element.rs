@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut conditions = Conditions::new(&model);
     conditions.fix(&model, 0, Dof::Ux)?;
     conditions.add_reference(&model, 3, Dof::Ux, 100.0)?;
-    let mut assembler = Assembler::new(&model, &conditions);
+    let mut assembler = Assembler::new(&model, &conditions)?;
     let mut state = StateStore::new(model.elements());
     let mut system = Assembled::default();
     let ctx = EvaluationContext::new(Operator::Tangent);

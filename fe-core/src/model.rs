@@ -99,6 +99,16 @@ pub enum ModelError {
         /// DOFs of the model at hand.
         expected: usize,
     },
+    /// Displacements, states or a numbering of another model.
+    #[error("{what}: {found} for a model that has {expected}; build it from the same model")]
+    Foreign {
+        /// What is counted.
+        what: &'static str,
+        /// How many are given.
+        found: usize,
+        /// How many the model at hand has.
+        expected: usize,
+    },
     /// A load or a prescribed displacement is not a number.
     #[error("the {what} of {dof} of node {node} at {position:?} mm is not a finite number")]
     NotFinite {
@@ -122,6 +132,22 @@ pub enum ModelError {
 }
 
 impl ModelError {
+    /// Refuses what another model than the one at hand has so many of.
+    pub(crate) const fn same(
+        what: &'static str,
+        found: usize,
+        expected: usize,
+    ) -> Result<(), Self> {
+        if found == expected {
+            return Ok(());
+        }
+        Err(Self::Foreign {
+            what,
+            found,
+            expected,
+        })
+    }
+
     /// Whether a shorter step may cure it.
     pub const fn is_recoverable(&self) -> bool {
         match self {
@@ -278,7 +304,7 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// [`ModelError::Element`].
+    /// [`ModelError::Element`], and [`ModelError::Foreign`] for displacements or a state of another model.
     pub fn sample(
         &self,
         element: usize,
@@ -286,6 +312,17 @@ impl Model {
         state: &StateStore,
         visit: &mut dyn FnMut(PointSample<'_>),
     ) -> Result<(), ModelError> {
+        ModelError::same("displacements", u.len(), self.dofs.len())?;
+        ModelError::same(
+            "elements with a state",
+            state.elements(),
+            self.elements.len(),
+        )?;
+        let (found, expected) = (
+            state.range(element).len(),
+            self.elements[element].state_len(),
+        );
+        ModelError::same("history variables of an element", found, expected)?;
         self.elements[element]
             .sample(&self.gather(element, u), state.committed(element), visit)
             .map_err(|source| self.locate(element, source))
@@ -326,6 +363,15 @@ impl Conditions {
         }
     }
 
+    /// Refuses another model than that of [`Self::new`], as far as the numbers of DOFs tell.
+    pub(crate) fn admit(&self, model: &Model) -> Result<(), ModelError> {
+        let (found, expected) = (self.reference.len(), model.dofs().len());
+        if found == expected {
+            return Ok(());
+        }
+        Err(ModelError::ForeignConditions { found, expected })
+    }
+
     /// The [leading](Model::leading) DOF of a condition. Refuses what is no number, and another model than that of
     /// [`Self::new`], as far as the numbers of DOFs tell.
     fn place(
@@ -335,10 +381,7 @@ impl Conditions {
         dof: Dof,
         quantity: (&'static str, f64),
     ) -> Result<(usize, f64), ModelError> {
-        let (found, expected) = (self.reference.len(), model.dofs().len());
-        if found != expected {
-            return Err(ModelError::ForeignConditions { found, expected });
-        }
+        self.admit(model)?;
         let leading = model.leading(node, dof)?;
         model.finite(quantity, node, dof)?;
         Ok(leading)

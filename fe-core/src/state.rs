@@ -43,6 +43,11 @@ impl StateStore {
         self.roll_back();
     }
 
+    /// Number of elements.
+    pub(crate) const fn elements(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
     /// Where an element's variables lie.
     pub fn range(&self, element: usize) -> Range<usize> {
         self.offsets[element]..self.offsets[element + 1]

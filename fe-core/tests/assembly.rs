@@ -5,7 +5,7 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{Damage, Flaw, Truss};
+use common::{Brick, Damage, Flaw, Truss};
 use fe_core::assembly::{Assembled, Assembler};
 use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementSystem, EvaluationContext};
@@ -81,7 +81,7 @@ fn results_are_bit_identical_for_one_and_two_threads() {
             .build()
             .unwrap();
         pool.install(|| {
-            let mut assembler = Assembler::new(&model, &conditions(&model));
+            let mut assembler = Assembler::new(&model, &conditions(&model)).unwrap();
             let mut state = StateStore::new(model.elements());
             let mut out = Assembled::default();
             let ctx = EvaluationContext::new(Operator::Tangent);
@@ -142,7 +142,7 @@ fn agrees_with_dense(model: &Model, ctx: EvaluationContext, symmetric: bool) {
     if ctx.symmetric_part {
         matrix = 0.5 * (&matrix + matrix.transpose());
     }
-    let mut assembler = Assembler::new(model, &conditions);
+    let mut assembler = Assembler::new(model, &conditions).unwrap();
     let mut state = StateStore::new(model.elements());
     let mut out = Assembled::default();
     // Twice: buffers that are used again must not remember.
@@ -221,7 +221,7 @@ fn a_mixed_model_agrees_with_a_dense_sum() {
 fn forces_alone_leave_the_matrix_alone_and_equal_those_with_it() {
     let model = mixed();
     let u = displacement(&model);
-    let mut assembler = Assembler::new(&model, &conditions(&model));
+    let mut assembler = Assembler::new(&model, &conditions(&model)).unwrap();
     let mut state = StateStore::new(model.elements());
     let mut with = Assembled::default();
     let tangent = EvaluationContext::new(Operator::Tangent);
@@ -239,7 +239,7 @@ fn forces_alone_leave_the_matrix_alone_and_equal_those_with_it() {
 #[test]
 fn an_element_that_fails_is_named_with_its_place() {
     let model = lattice_of(Flaw::Refuses, [1, 1, 1], |_| Flaw::None);
-    let mut assembler = Assembler::new(&model, &Conditions::new(&model));
+    let mut assembler = Assembler::new(&model, &Conditions::new(&model)).unwrap();
     let mut state = StateStore::new(model.elements());
     let ctx = EvaluationContext::new(Operator::None);
     let error = assembler
@@ -258,4 +258,57 @@ fn an_element_that_fails_is_named_with_its_place() {
             .starts_with("element 0 (first node 0 at [0.0, 0.0, 0.0] mm)"),
         "{error}"
     );
+}
+
+/// What belongs to another model is refused by name instead of read beyond its end: conditions, displacements, states with
+/// other elements, with longer or shorter histories, and the numbering itself.
+#[test]
+fn what_belongs_to_another_model_is_refused() {
+    let (model, other) = (mixed(), lattice([1, 1, 1], |_| Flaw::None));
+    for (a, b) in [(&model, &other), (&other, &model)] {
+        assert!(matches!(
+            Assembler::new(a, &Conditions::new(b)),
+            Err(ModelError::ForeignConditions { .. })
+        ));
+        let refused = |u: &Model, state: &Model, numbered: &Model| {
+            let mut assembler = Assembler::new(numbered, &conditions(numbered)).unwrap();
+            let mut state = StateStore::new(state.elements());
+            let ctx = EvaluationContext::new(Operator::Tangent);
+            let mut out = Assembled::default();
+            match assembler.evaluate(a, &displacement(u), &mut state, &ctx, &mut out) {
+                Err(ModelError::Foreign { what, .. }) => what,
+                other => panic!("{other:?}"),
+            }
+        };
+        assert_eq!(refused(b, a, a), "displacements");
+        assert_eq!(refused(a, b, a), "elements with a state");
+        assert_eq!(refused(a, a, b), "numbered DOFs");
+        let mut visit = |_: fe_core::element::PointSample<'_>| {};
+        let (u, state) = (displacement(a), StateStore::new(a.elements()));
+        a.sample(0, &u, &state, &mut visit).unwrap();
+        for (u, state) in [
+            (displacement(b), StateStore::new(a.elements())),
+            (displacement(a), StateStore::new(b.elements())),
+        ] {
+            let foreign = a.sample(0, &u, &state, &mut visit);
+            assert!(matches!(foreign, Err(ModelError::Foreign { .. })));
+        }
+    }
+    // As many elements, none of which has a history.
+    let bricks = other.elements().iter().map(|_| {
+        let brick: Box<dyn Element> = Box::new(Brick::new(&[0; 20], &[[0.0; 3]; 20]));
+        brick
+    });
+    let mut state = StateStore::new(&bricks.collect::<Vec<_>>());
+    let mut assembler = Assembler::new(&other, &conditions(&other)).unwrap();
+    let (u, ctx) = (displacement(&other), EvaluationContext::new(Operator::None));
+    let refused = assembler.evaluate(&other, &u, &mut state, &ctx, &mut Assembled::default());
+    assert!(matches!(
+        refused,
+        Err(ModelError::Foreign {
+            found: 0,
+            expected: 2,
+            ..
+        })
+    ));
 }

@@ -146,7 +146,7 @@ fn a_plane_of_symmetry_holds_its_normal_displacement_only() {
     let model = Model::new(mesh, elements).unwrap();
     let mut conditions = Conditions::new(&model);
     conditions.fix_set(&model, "middle", Dof::Ux).unwrap();
-    let assembler = Assembler::new(&model, &conditions);
+    let assembler = Assembler::new(&model, &conditions).unwrap();
     assert_eq!(assembler.free().len(), 60 - 8);
     for i in 0..60 {
         let (node, dof) = model.dofs().owner(i);
@@ -310,7 +310,7 @@ fn the_state_store_commits_rolls_back_and_latches() {
     let model = Model::new(Mesh::new(ends.to_vec()).unwrap(), elements).unwrap();
     let mut state = StateStore::new(model.elements());
     assert_eq!((state.range(1), state.all_committed().len()), (2..4, 4));
-    let mut assembler = Assembler::new(&model, &Conditions::new(&model));
+    let mut assembler = Assembler::new(&model, &Conditions::new(&model)).unwrap();
     let mut pull = |state: &mut StateStore, strain: f64| {
         let u: Vec<f64> = (0..6)
             .map(|i| {

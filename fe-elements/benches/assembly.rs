@@ -78,7 +78,7 @@ fn assembly(c: &mut Criterion) {
         ("force only", Operator::None, false),
     ] {
         let model = beam(unsymmetric);
-        let mut assembler = Assembler::new(&model, &conditions(&model));
+        let mut assembler = Assembler::new(&model, &conditions(&model)).unwrap();
         let mut state = StateStore::new(model.elements());
         let mut out = Assembled::default();
         let u: Vec<f64> = (0..model.dofs().len())
@@ -96,7 +96,7 @@ fn assembly(c: &mut Criterion) {
     let model = beam(false);
     let conditions = conditions(&model);
     group.bench_function("pattern and scatter map", |b| {
-        b.iter(|| pool.install(|| Assembler::new(&model, &conditions)));
+        b.iter(|| pool.install(|| Assembler::new(&model, &conditions).unwrap()));
     });
     group.finish();
 }

@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         conditions.add_reference(&model, node, Dof::Uy, force[1])?;
     }
 
-    let mut assembler = Assembler::new(&model, &conditions);
+    let mut assembler = Assembler::new(&model, &conditions)?;
     let mut out = Assembled::default();
     let (rest, mut state) = (
         vec![0.0; model.dofs().len()],

@@ -48,7 +48,7 @@ fn cantilever() -> (Model, Conditions) {
 
 fn linear(c: &mut Criterion) {
     let (model, conditions) = cantilever();
-    let mut assembler = Assembler::new(&model, &conditions);
+    let mut assembler = Assembler::new(&model, &conditions).unwrap();
     let mut state = StateStore::new(model.elements());
     let mut out = Assembled::default();
     let rest = vec![0.0; model.dofs().len()];

@@ -29,7 +29,7 @@ impl DenseModel {
     ///
     /// [`ModelError`].
     pub fn new(model: &Model, conditions: &Conditions) -> Result<Self, ModelError> {
-        let mut assembler = Assembler::new(model, conditions);
+        let mut assembler = Assembler::new(model, conditions)?;
         let mut state = StateStore::new(model.elements());
         let mut out = Assembled::default();
         let rest = vec![0.0; model.dofs().len()];
@@ -116,7 +116,7 @@ pub fn internal(model: &Model, u: &[f64]) -> Result<Vec<f64>, ModelError> {
     let mut state = StateStore::new(model.elements());
     let mut out = Assembled::default();
     let ctx = EvaluationContext::new(Operator::None);
-    let mut assembler = Assembler::new(model, &Conditions::new(model));
+    let mut assembler = Assembler::new(model, &Conditions::new(model))?;
     assembler.evaluate(model, u, &mut state, &ctx, &mut out)?;
     Ok(out.internal)
 }

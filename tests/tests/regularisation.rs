@@ -31,7 +31,7 @@ fn dissipated(h: f64, angle: f64, rule: HexRule, end: f64) -> f64 {
     let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), angle.to_radians());
     let axis = turn * Vector3::x();
     let strain: Matrix3<f64> = axis * axis.transpose();
-    let mut assembler = Assembler::new(&model, &conditions);
+    let mut assembler = Assembler::new(&model, &conditions).unwrap();
     let mut state = StateStore::new(model.elements());
     let (mut out, mut ledger) = (Assembled::default(), Ledger::default());
     let ctx = EvaluationContext::new(Operator::None);

@@ -65,7 +65,7 @@ impl Piece {
             u[model.dof(node, Dof::Ux).unwrap()] = strain * x;
             u[model.dof(node, Dof::Uy).unwrap()] = 0.5 * phi * x * x;
         }
-        let mut assembler = Assembler::new(model, &Conditions::new(model));
+        let mut assembler = Assembler::new(model, &Conditions::new(model)).unwrap();
         let mut state = StateStore::new(model.elements());
         let mut out = Assembled::default();
         let ctx = EvaluationContext::new(Operator::None);

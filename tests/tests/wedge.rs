@@ -50,7 +50,7 @@ fn a_collapsed_hexahedron_has_the_stiffness_of_its_forces() {
         let mesh = Mesh::new(places.clone()).unwrap();
         let model = Model::new(mesh, vec![Box::new(element)]).unwrap();
         let mut state = StateStore::new(model.elements());
-        let mut assembler = Assembler::new(&model, &Conditions::new(&model));
+        let mut assembler = Assembler::new(&model, &Conditions::new(&model)).unwrap();
         let n = model.dofs().len();
         let u: Vec<f64> = (0..n).map(|i| 1e-3 * ((i * i) as f64).sin()).collect();
         let mut out = Assembled::default();

@@ -58,8 +58,13 @@ pub struct Assembled {
 
 impl Assembler {
     /// Builds the pattern and the scatter map once.
-    pub fn new(model: &Model, conditions: &Conditions) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError::ForeignConditions`] for those of another model, as far as the numbers of DOFs tell.
+    pub fn new(model: &Model, conditions: &Conditions) -> Result<Self, ModelError> {
         let n = model.dofs().len();
+        conditions.admit(model)?;
         let mut equation = vec![NONE; n];
         let mut free = Vec::with_capacity(n);
         let mut rate = vec![0.0; n];
@@ -92,7 +97,7 @@ impl Assembler {
             Slot::default();
             (BATCH * rayon::current_num_threads()).min(model.elements().len())
         ];
-        Self {
+        Ok(Self {
             equation,
             free,
             element_dofs,
@@ -102,7 +107,7 @@ impl Assembler {
             rate,
             unsymmetric,
             slots,
-        }
+        })
     }
 
     /// Pattern of the free equations.
@@ -146,7 +151,8 @@ impl Assembler {
     ///
     /// # Errors
     ///
-    /// [`ModelError::Element`] of the first element in order that failed.
+    /// [`ModelError::Element`] of the first element in order that failed, and [`ModelError::Foreign`] for another model
+    /// than that of [`Self::new`], or displacements or states of another one, as far as numbers tell.
     pub fn evaluate(
         &mut self,
         model: &Model,
@@ -155,6 +161,7 @@ impl Assembler {
         ctx: &EvaluationContext,
         out: &mut Assembled,
     ) -> Result<(), ModelError> {
+        self.admit(model, u, state)?;
         let with_matrix = ctx.operator != Operator::None;
         let tangent = self.unsymmetric && ctx.operator == Operator::Tangent;
         let unsymmetric = tangent && !ctx.symmetric_part;
@@ -208,6 +215,22 @@ impl Assembler {
                     self.add_matrix(e, &self.slots[k].stiffness, full, out);
                 }
             }
+        }
+        Ok(())
+    }
+
+    /// Refuses what is not of the model that was numbered.
+    fn admit(&self, model: &Model, u: &[f64], state: &StateStore) -> Result<(), ModelError> {
+        let (dofs, elements) = (model.dofs().len(), model.elements());
+        ModelError::same("numbered DOFs", self.equation.len(), dofs)?;
+        ModelError::same("numbered elements", self.element_dofs.len(), elements.len())?;
+        ModelError::same("displacements", u.len(), dofs)?;
+        ModelError::same("elements with a state", state.elements(), elements.len())?;
+        for (e, (element, numbered)) in elements.iter().zip(&self.element_dofs).enumerate() {
+            let own = element.nodes().len() * element.dofs().len();
+            ModelError::same("numbered DOFs of an element", numbered.len(), own)?;
+            let (found, expected) = (state.range(e).len(), element.state_len());
+            ModelError::same("history variables of an element", found, expected)?;
         }
         Ok(())
     }

@@ -122,7 +122,7 @@ impl<'m> Stage<'m> {
         SolverError::length("history variables", history, variables)?;
         // What an earlier stage had latched in a step that failed has not happened.
         state.roll_back();
-        let assembler = Assembler::new(model, &conditions);
+        let assembler = Assembler::new(model, &conditions)?;
         let mut linear = DirectSolver::default();
         linear
             .analyze(assembler.pattern())

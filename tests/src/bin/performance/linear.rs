@@ -109,7 +109,7 @@ fn linear(cells: [usize; 3], times: usize) -> Result<Linear, Box<dyn Error>> {
     let reaction = solved.reaction(&beam.model, &beam.supports, uy);
     let memory = memory();
 
-    let mut assembler = Assembler::new(&beam.model, &beam.conditions);
+    let mut assembler = Assembler::new(&beam.model, &beam.conditions)?;
     let mut state = StateStore::new(beam.model.elements());
     let rest = vec![0.0; beam.model.dofs().len()];
     let mut out = Assembled::default();
