@@ -224,14 +224,14 @@ impl Element for BondSlip {
         points::latch(self.law.as_ref(), trial, base)
     }
 
-    fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
+    fn free_energy(&self, u: &[f64], state: &[f64]) -> Result<Option<f64>, ElementError> {
         let along = self.points.iter().map(|p| (p.area, slip(&p.jump(u))));
         let along = points::free_energy(self.law.as_ref(), self.size, state, along)?;
         let across = self.points.iter().map(|p| {
             let jump = p.jump(u);
             0.5 * p.area * self.transverse * (jump[1].powi(2) + jump[2].powi(2))
         });
-        Some(along + across.sum::<f64>())
+        Ok(Some(along + across.sum::<f64>()))
     }
 
     fn sample(

@@ -276,10 +276,10 @@ impl Element for Interface16 {
         points::latch(self.law.as_ref(), trial, base)
     }
 
-    fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
+    fn free_energy(&self, u: &[f64], state: &[f64]) -> Result<Option<f64>, ElementError> {
         let nodes = jumps(u);
         let points = self.points.iter().map(|p| (p.area, p.jump(&nodes)));
-        points::free_energy(self.law.as_ref(), self.size, state, points)
+        points::free_energy(self.law.as_ref(), self.size, state, points).map(Some)
     }
 
     fn sample(

@@ -214,8 +214,12 @@ pub trait Element: Debug + Send + Sync {
     /// of points. Without one the element is taken to unload to the origin, half the product of its forces and
     /// displacements: one that keeps permanent displacements, or stiffens as it is stretched, must give it, or reloading it
     /// counts as creating energy and is refused, and its dissipation is wrong.
-    fn free_energy(&self, _u: &[f64], _state: &[f64]) -> Option<f64> {
-        None
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError`], naming the integration point, where a law fails: that is no element without an energy.
+    fn free_energy(&self, _u: &[f64], _state: &[f64]) -> Result<Option<f64>, ElementError> {
+        Ok(None)
     }
 
     /// Calls `visit` for every integration point with the stresses of a committed state.

@@ -114,7 +114,8 @@ impl Ledger {
     ///
     /// # Errors
     ///
-    /// [`ModelError::Element`].
+    /// [`ModelError::Element`], and [`ModelError::Foreign`] or [`ModelError::ForeignConditions`] for displacements or conditions
+    /// of another model.
     pub fn weigh<'s>(
         &mut self,
         model: &Model,
@@ -122,6 +123,8 @@ impl Ledger {
         (lambda, u): (f64, &[f64]),
         element: impl Fn(usize) -> ElementAt<'s> + Sync,
     ) -> Result<Change, ModelError> {
+        ModelError::same("displacements", u.len(), model.dofs().len())?;
+        conditions.admit(model)?;
         self.at.displacement.resize(u.len(), 0.0);
         self.at.external.resize(u.len(), 0.0);
         let before = &self.at.displacement;
@@ -239,7 +242,7 @@ impl Seen {
             work += 0.5 * (last + self.force[i]) * (u[i] - old[d as usize]);
         }
         let half: f64 = self.force.iter().zip(&u).map(|(f, u)| 0.5 * f * u).sum();
-        let stored = element.free_energy(&u, at.state).unwrap_or(half);
+        let stored = element.free_energy(&u, at.state)?.unwrap_or(half);
         self.energy = PartEnergy { work, stored };
         Ok(())
     }

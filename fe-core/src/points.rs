@@ -3,7 +3,7 @@
 
 use crate::element::{ElementError, EvaluationContext, PointSample};
 use crate::kinematics::Kinematics;
-use crate::material::{Material, PointContext, Response};
+use crate::material::{Material, MaterialError, PointContext, Response};
 
 /// Context of a point of the given crack-band width (mm) within an evaluation.
 pub const fn context(band_width: f64, ctx: &EvaluationContext) -> PointContext {
@@ -52,25 +52,31 @@ pub fn latch<K: Kinematics>(law: &dyn Material<K>, trial: &[f64], base: &mut [f6
 }
 
 /// Sum over the points, given as volume (mm3) and strain, of the recoverable energy (N mm): the free energy, or for laws
-/// that state none what unloading along the secant gives back, 1/2 sigma : (eps - eps_p). `None` where a law fails.
+/// that state none what unloading along the secant gives back, 1/2 sigma : (eps - eps_p).
+///
+/// # Errors
+///
+/// [`ElementError::Material`], naming the point.
 pub fn free_energy<K: Kinematics>(
     law: &dyn Material<K>,
     band_width: f64,
     state: &[f64],
-    mut points: impl Iterator<Item = (f64, K::Vector)>,
-) -> Option<f64> {
+    points: impl Iterator<Item = (f64, K::Vector)>,
+) -> Result<f64, ElementError> {
     let n = law.state_len();
     let ctx = context(band_width, &EvaluationContext::frozen());
     let mut scratch = vec![0.0; n];
     let mut rest = state;
-    points.try_fold(0.0, |sum, (volume, strain)| {
+    let mut numbered = points.enumerate();
+    numbered.try_fold(0.0, |sum, (point, (volume, strain))| {
         let (own, tail) = rest.split_at(n);
         rest = tail;
         let density = match law.free_energy(&strain, own, &ctx) {
             Some(stated) => stated,
-            None => along_secant(law, &strain, (own, &mut scratch), &ctx)?,
+            None => along_secant(law, &strain, (own, &mut scratch), &ctx)
+                .map_err(|source| ElementError::Material { point, source })?,
         };
-        Some(sum + volume * density)
+        Ok(sum + volume * density)
     })
 }
 
@@ -97,14 +103,14 @@ fn along_secant<K: Kinematics>(
     strain: &K::Vector,
     (state, scratch): (&[f64], &mut [f64]),
     ctx: &PointContext,
-) -> Option<f64> {
-    let stress = law.update(strain, state, scratch, ctx).ok()?.stress;
+) -> Result<f64, MaterialError> {
+    let stress = law.update(strain, state, scratch, ctx)?.stress;
     let plastic = law.report(strain, state).plastic_strain;
     let parts = K::components(&stress).iter().zip(K::components(strain));
     let whole: f64 = parts.map(|(s, e)| s * e).sum();
     let parts = K::components(&stress).iter().zip(&plastic);
     let lost: f64 = parts.map(|(s, e)| s * e).sum();
-    Some(0.5 * (whole - lost))
+    Ok(0.5 * (whole - lost))
 }
 
 /// Shows every point, given as position (mm), volume (mm3) and strain, with the stress of a committed state.

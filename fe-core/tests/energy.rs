@@ -1,7 +1,13 @@
-//! Protects the recoverable energy of laws that do not state it.
+//! Protects the recoverable energy of laws that do not state it, and what the books say of laws that fail.
 
+use fe_core::dof::Dof;
+use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext};
+use fe_core::energy::{ElementAt, Ledger};
 use fe_core::kinematics::Axial;
+use fe_core::limits::finite;
 use fe_core::material::{Material, MaterialError, PointContext, PointReport, Response, StateVar};
+use fe_core::mesh::{Mesh, NodeId};
+use fe_core::model::{Conditions, Model, ModelError};
 use fe_core::points::free_energy;
 use nalgebra::{Matrix1, Vector1};
 
@@ -28,6 +34,7 @@ impl Material<Axial> for Plastic {
         trial: &mut [f64],
         _: &PointContext,
     ) -> Result<Response<Axial>, MaterialError> {
+        finite("plastic", strain)?;
         trial.copy_from_slice(committed);
         Ok(Response {
             stress: Vector1::new(YOUNG * (strain[0] - committed[0])),
@@ -55,4 +62,83 @@ fn plastic_strain_of_a_bar_is_not_recovered() {
             "{energy} {left}"
         );
     }
+}
+
+/// A law that fails is no law without an energy: the point is named.
+#[test]
+fn a_law_that_fails_is_told_with_its_point() {
+    let points = [0.0, 1e-3, f64::NAN].map(|e| (7.0, Vector1::new(e)));
+    let error = free_energy(&Plastic, 1.0, &[0.0; 3], points.into_iter()).unwrap_err();
+    assert!(
+        matches!(error, ElementError::Material { point: 2, .. }),
+        "{error}"
+    );
+}
+
+/// An element of one node whose energy cannot be had.
+#[derive(Debug)]
+struct Failing;
+
+impl Element for Failing {
+    fn nodes(&self) -> &[NodeId] {
+        &[0]
+    }
+
+    fn dofs(&self) -> &'static [Dof] {
+        &[Dof::Ux]
+    }
+
+    fn state_len(&self) -> usize {
+        1
+    }
+
+    fn init_state(&self, _: &mut [f64]) {}
+
+    fn evaluate(
+        &self,
+        u: &[f64],
+        _: &[f64],
+        _: &mut [f64],
+        _: &EvaluationContext,
+        out: ElementSystem<'_>,
+    ) -> Result<(), ElementError> {
+        out.force.copy_from_slice(u);
+        Ok(())
+    }
+
+    fn free_energy(&self, u: &[f64], state: &[f64]) -> Result<Option<f64>, ElementError> {
+        let points = [(1.0, Vector1::new(u[0]))].into_iter();
+        free_energy(&Plastic, 1.0, state, points).map(Some)
+    }
+}
+
+/// The books tell which element failed instead of taking half the product of its forces and displacements, and refuse
+/// displacements and conditions of another model.
+#[test]
+fn the_ledger_tells_what_it_cannot_weigh() {
+    let mesh = Mesh::new(vec![[0.0; 3]]).unwrap();
+    let model = Model::new(mesh.clone(), vec![Box::new(Failing)]).unwrap();
+    let conditions = Conditions::new(&model);
+    let mut ledger = Ledger::default();
+    let mut weigh = |conditions: &Conditions, u: &[f64]| {
+        ledger.weigh(&model, conditions, (0.0, u), |_| ElementAt {
+            dofs: &[0],
+            state: &[0.0],
+            force: Some(&[0.0]),
+        })
+    };
+    assert!(weigh(&conditions, &[1e-3]).is_ok());
+    assert!(matches!(
+        weigh(&conditions, &[f64::NAN]),
+        Err(ModelError::Element { element: 0, .. })
+    ));
+    assert!(matches!(
+        weigh(&conditions, &[]),
+        Err(ModelError::Foreign { .. })
+    ));
+    let nothing = Model::new(mesh, Vec::new()).unwrap();
+    assert!(matches!(
+        weigh(&Conditions::new(&nothing), &[0.0]),
+        Err(ModelError::ForeignConditions { .. })
+    ));
 }

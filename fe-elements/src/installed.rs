@@ -52,19 +52,25 @@ impl View for Offset {
     }
 
     /// Without one of its own, (1/2) f . (u - u_0) with the forces f of that state.
-    fn free_energy(&self, element: &dyn Element, u: &[f64], state: &[f64]) -> Option<f64> {
+    fn free_energy(
+        &self,
+        element: &dyn Element,
+        u: &[f64],
+        state: &[f64],
+    ) -> Result<Option<f64>, ElementError> {
         let own = self.own(u);
-        element.free_energy(&own, state).or_else(|| {
-            let (mut force, mut trial) = (vec![0.0; own.len()], state.to_vec());
-            let out = ElementSystem {
-                force: &mut force,
-                stiffness: &mut [],
-            };
-            let frozen = EvaluationContext::frozen();
-            element
-                .evaluate(&own, state, &mut trial, &frozen, out)
-                .ok()?;
-            Some(force.iter().zip(own.iter()).map(|(f, u)| 0.5 * f * u).sum())
-        })
+        let stated = element.free_energy(&own, state)?;
+        if stated.is_some() {
+            return Ok(stated);
+        }
+        let (mut force, mut trial) = (vec![0.0; own.len()], state.to_vec());
+        let out = ElementSystem {
+            force: &mut force,
+            stiffness: &mut [],
+        };
+        let frozen = EvaluationContext::frozen();
+        element.evaluate(&own, state, &mut trial, &frozen, out)?;
+        let half = force.iter().zip(own.iter()).map(|(f, u)| 0.5 * f * u);
+        Ok(Some(half.sum()))
     }
 }

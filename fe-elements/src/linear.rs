@@ -143,9 +143,15 @@ impl View for Constant {
         Ok(())
     }
 
-    fn free_energy(&self, _: &dyn Element, u: &[f64], _: &[f64]) -> Option<f64> {
+    fn free_energy(
+        &self,
+        _: &dyn Element,
+        u: &[f64],
+        _: &[f64],
+    ) -> Result<Option<f64>, ElementError> {
         let mut force = vec![0.0; u.len()];
         self.add_force(u, &mut force);
-        Some(0.5 * u.iter().zip(force).map(|(u, f)| u * f).sum::<f64>())
+        let twice: f64 = u.iter().zip(force).map(|(u, f)| u * f).sum();
+        Ok(Some(0.5 * twice))
     }
 }

@@ -36,7 +36,16 @@ pub trait View: Debug + Send + Sync {
     }
 
     /// See [`Element::free_energy`].
-    fn free_energy(&self, element: &dyn Element, u: &[f64], state: &[f64]) -> Option<f64> {
+    ///
+    /// # Errors
+    ///
+    /// [`ElementError`], naming the integration point.
+    fn free_energy(
+        &self,
+        element: &dyn Element,
+        u: &[f64],
+        state: &[f64],
+    ) -> Result<Option<f64>, ElementError> {
         element.free_energy(&self.own(u), state)
     }
 }
@@ -97,7 +106,7 @@ impl<V: View> Element for Seen<V> {
         self.element.latch(trial, base)
     }
 
-    fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
+    fn free_energy(&self, u: &[f64], state: &[f64]) -> Result<Option<f64>, ElementError> {
         self.view.free_energy(self.element.as_ref(), u, state)
     }
 

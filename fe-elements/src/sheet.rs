@@ -144,9 +144,9 @@ impl<const N: usize> Element for Sheet<N> {
         points::latch(self.law.as_ref(), trial, base)
     }
 
-    fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
+    fn free_energy(&self, u: &[f64], state: &[f64]) -> Result<Option<f64>, ElementError> {
         let points = self.points.iter().map(|p| (p.volume, p.strain(u)));
-        points::free_energy(self.law.as_ref(), self.band_width, state, points)
+        points::free_energy(self.law.as_ref(), self.band_width, state, points).map(Some)
     }
 
     fn sample(

@@ -185,16 +185,16 @@ impl<I: Interpolation> Element for SolidElement<I> {
         points::latch(self.law.as_ref(), trial, base)
     }
 
-    fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
+    fn free_energy(&self, u: &[f64], state: &[f64]) -> Result<Option<f64>, ElementError> {
         let mut strains = [Vector6::zeros(); MAX_POINTS];
         let strains = &mut strains[..self.positions.len()];
         self.interpolation.strains(u, strains);
         let law = self.law.as_ref();
         if points::unload_to_origin(law, self.band_width, state, strains) {
-            return None;
+            return Ok(None);
         }
         let points = self.interpolation.volumes().zip(strains.iter().copied());
-        points::free_energy(law, self.band_width, state, points)
+        points::free_energy(law, self.band_width, state, points).map(Some)
     }
 
     fn sample(

@@ -141,9 +141,9 @@ impl Element for Truss3 {
         points::latch(self.law.as_ref(), trial, base)
     }
 
-    fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
+    fn free_energy(&self, u: &[f64], state: &[f64]) -> Result<Option<f64>, ElementError> {
         let points = self.points.iter().map(|p| (p.volume, p.strain(u)));
-        points::free_energy(self.law.as_ref(), self.length, state, points)
+        points::free_energy(self.law.as_ref(), self.length, state, points).map(Some)
     }
 
     fn sample(

@@ -299,7 +299,7 @@ fn energies_agree() {
         let ctx = EvaluationContext::new(Operator::None);
         element.evaluate(&u, &[], &mut [], &ctx, out).unwrap();
         let work: f64 = force.iter().zip(&u).map(|(f, u)| f * u).sum();
-        let energy = element.free_energy(&u, &[]).unwrap();
+        let energy = element.free_energy(&u, &[]).unwrap().unwrap();
         let mut sampled = 0.0;
         let mut visit = |p: PointSample<'_>| {
             sampled += p.volume

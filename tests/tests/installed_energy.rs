@@ -26,7 +26,10 @@ fn the_energy_is_that_of_the_strain_since() {
         places.flat_map(|x| [e * x[0], 0.0, 0.0]).collect()
     };
     let installed = Installed::new(Box::new(cube), stretch(1e-3)).unwrap();
-    let energy = installed.free_energy(&stretch(1.5e-3), &[]).unwrap();
+    let energy = installed
+        .free_energy(&stretch(1.5e-3), &[])
+        .unwrap()
+        .unwrap();
     let exact = 0.5 * 3e4 * 5e-4_f64.powi(2) * 8.0;
     assert!(
         (energy - exact).abs() < 1e-12 * exact,

@@ -306,7 +306,7 @@ impl Element for EmbeddedBar {
         points::latch(self.law.as_ref(), &trial[..axial], &mut base[..axial])
     }
 
-    fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
+    fn free_energy(&self, u: &[f64], state: &[f64]) -> Result<Option<f64>, ElementError> {
         let bar = self
             .points
             .iter()
@@ -319,7 +319,7 @@ impl Element for EmbeddedBar {
             let stored = self.dowel?.free_energy(shear, slid.unwrap_or_default());
             Some(stored * p.weight)
         });
-        Some(energy + dowel.sum::<f64>())
+        Ok(Some(energy + dowel.sum::<f64>()))
     }
 
     fn sample(

@@ -257,17 +257,20 @@ impl Element for Shell8 {
         })
     }
 
-    fn free_energy(&self, u: &[f64], state: &[f64]) -> Option<f64> {
+    fn free_energy(&self, u: &[f64], state: &[f64]) -> Result<Option<f64>, ElementError> {
         let elastic: f64 = u
             .iter()
             .enumerate()
             .map(|(i, u_i)| u_i * self.elastic_force(i, u))
             .sum();
-        self.layers().try_fold(0.5 * elastic, |sum, layer| {
+        let mut sum = 0.5 * elastic;
+        for layer in self.layers() {
             let points = layer.points.iter().map(|p| (p.volume, p.strain(u)));
             let state = &state[layer.history];
-            Some(sum + points::free_energy(layer.law, self.band_width, state, points)?)
-        })
+            sum += points::free_energy(layer.law, self.band_width, state, points)
+                .map_err(|error| in_element(error, layer.first))?;
+        }
+        Ok(Some(sum))
     }
 
     fn sample(
