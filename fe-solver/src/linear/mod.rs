@@ -281,7 +281,7 @@ impl LinearSolver for DirectSolver {
             self.stats.general += 1;
             factor
                 .factorize(fronts, values, diagonal, Kind::General)
-                .and_then(|_| probe::regular(values, diagonal, |x| factor.solve(fronts, x)))
+                .and_then(|_| probe::regular(pattern, values, |x| factor.solve(fronts, x)))
                 .map(|()| 0)
         };
         // A value that is not finite makes a pivot so.

@@ -1,35 +1,39 @@
 //! Whether an unsymmetric factor is that of a regular matrix.
 
-use fe_core::sparsity::MatrixValues;
+use fe_core::sparsity::{MatrixValues, Sparsity};
 
 use super::LinearError;
 
 /// Growth of a probe solution beyond which the matrix counts as singular.
 const SINGULAR_GROWTH: f64 = 1e13;
 
-/// L U reports no singularity; the solution of a load scaled by the diagonal does.
+/// L U reports no singularity; the solution x of a probe b does. Both are measured in the scale of each equation,
+///
+/// b_i = w_i s_i,  growth = max_i |s_i x_i|,  s_i = |a_ii|^(1/2),
+///
+/// with irregular weights w between 0.5 and 1.5. The growth is the same for A and for c D A D with any number c and any
+/// positive diagonal D: whatever the unit of the forces, and of each displacement with the force that works on it.
 pub(super) fn regular(
+    pattern: &Sparsity,
     values: &MatrixValues,
-    diagonal: &[usize],
     solve: impl FnOnce(&mut [f64]),
 ) -> Result<(), LinearError> {
-    // Irregular shares (multiples of the golden ratio): no rigid-body mode is orthogonal to them.
-    let share = |i: usize| 0.5 + (0.618_033_988_749_895 * i as f64).fract();
-    let entries = diagonal.iter().enumerate();
-    let mut x: Vec<f64> = entries
-        .map(|(i, &k)| share(i) * values.lower[k].abs())
-        .collect();
+    let scales = scales(pattern, values);
+    // Multiples of the golden ratio: no rigid-body mode is orthogonal to them.
+    let weight = |i: usize| 0.5 + (0.618_033_988_749_895 * i as f64).fract();
+    let mut x: Vec<f64> = (0..).zip(&scales).map(|(i, s)| weight(i) * s).collect();
     solve(&mut x);
     let mut worst = (0, 0.0);
-    for (i, v) in x.iter().enumerate() {
-        if !v.is_finite() {
+    for (i, (v, s)) in x.iter().zip(&scales).enumerate() {
+        let grown = (v * s).abs();
+        if !grown.is_finite() {
             return Err(LinearError::Singular {
                 equation: i,
                 pivot_ratio: 0.0,
             });
         }
-        if v.abs() > worst.1 {
-            worst = (i, v.abs());
+        if grown > worst.1 {
+            worst = (i, grown);
         }
     }
     if worst.1 > SINGULAR_GROWTH {
@@ -39,4 +43,30 @@ pub(super) fn regular(
         });
     }
     Ok(())
+}
+
+/// Scale of every equation: the root of its diagonal entry. Where that is zero, its largest coupling over the scale of what it
+/// couples with, which a scaling changes alike; 0 for an equation that is coupled with no other scale.
+fn scales(pattern: &Sparsity, values: &MatrixValues) -> Vec<f64> {
+    let diagonal = &pattern.col_ptr()[..pattern.len()];
+    let roots: Vec<f64> = diagonal
+        .iter()
+        .map(|&k| values.lower[k].abs().sqrt())
+        .collect();
+    let mut scales = roots.clone();
+    if roots.iter().all(|r| *r > 0.0) {
+        return scales;
+    }
+    for j in 0..pattern.len() {
+        for k in pattern.column(j).skip(1) {
+            let i = pattern.row_idx()[k];
+            let coupling = values.lower[k].abs().max(values.upper[k].abs());
+            for (own, other) in [(i, j), (j, i)] {
+                if roots[own] == 0.0 && roots[other] > 0.0 {
+                    scales[own] = scales[own].max(coupling / roots[other]);
+                }
+            }
+        }
+    }
+    scales
 }

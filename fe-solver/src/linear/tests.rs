@@ -351,3 +351,49 @@ fn a_matrix_is_not_factorised_twice_in_a_row() {
         assert!(solver.inertia(&singular).is_err());
     }
 }
+
+/// Whether an unsymmetric matrix is regular does not depend on the unit of the forces, nor on that of each unknown: c D A D is
+/// what A is, for factors c and diagonals D over many orders of magnitude, also where the diagonal has a zero.
+#[test]
+fn the_verdict_on_an_unsymmetric_matrix_is_that_of_any_scaling() {
+    let p = pattern(41);
+    let sound = values(&p, 3, |_| 3.0, true);
+    let mut without_diagonal = sound.clone();
+    without_diagonal.lower[p.col_ptr()[20]] = 0.0;
+    without_diagonal.upper[p.col_ptr()[20]] = 0.0;
+    // Springs between neighbours of each group, held nowhere; a constant has no energy.
+    let mut loose = MatrixValues {
+        lower: vec![-1.0; p.nnz()],
+        upper: vec![-1.0; p.nnz()],
+    };
+    let mut sums = vec![0.0; p.len()];
+    for j in 0..p.len() {
+        for k in p.column(j).skip(1) {
+            sums[j] += 1.0;
+            sums[p.row_idx()[k]] += 1.0;
+        }
+    }
+    for (j, sum) in sums.into_iter().enumerate() {
+        loose.lower[p.col_ptr()[j]] = sum;
+        loose.upper[p.col_ptr()[j]] = sum;
+    }
+    for (matrix, regular) in [(&sound, true), (&without_diagonal, true), (&loose, false)] {
+        for factor in [1.0, 1e-30, 1e30, 3e-200, 7e150] {
+            for orders in [0.0, 3.0, 8.0] {
+                let scale = |i: usize| 10_f64.powf(orders * (1.3 * i as f64).sin());
+                let mut scaled = matrix.clone();
+                for j in 0..p.len() {
+                    for k in p.column(j) {
+                        let both = factor * scale(j) * scale(p.row_idx()[k]);
+                        scaled.lower[k] *= both;
+                        scaled.upper[k] *= both;
+                    }
+                }
+                let mut solver = DirectSolver::default();
+                solver.analyze(&p).unwrap();
+                let verdict = solver.factorize(&scaled);
+                assert_eq!(verdict.is_ok(), regular, "{factor:e} {orders}: {verdict:?}");
+            }
+        }
+    }
+}
