@@ -40,6 +40,12 @@ pub enum SolverError {
         /// Node and DOF.
         at: String,
     },
+    /// No stiffness has been evaluated that could be factorised.
+    #[error(
+        "no stiffness has been evaluated yet, or the evaluation failed: ask Stage::residual for an operator, tangent or \
+         secant, first"
+    )]
+    NotEvaluated,
     /// No step could be completed, not even the shortest.
     #[error(
         "no convergence at load factor {lambda:.6} with the shortest step {step:.3e}: relative residual \

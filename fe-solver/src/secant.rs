@@ -217,7 +217,7 @@ impl SecantAnderson {
             return Ok(stage.restrict(&at));
         }
         let accepted = accepted.to_vec();
-        if !stage.holds_stable_tangent() {
+        if !(stage.holds_stable_tangent() && stage.has_operator()) {
             let operator = EvaluationContext::new(Operator::Secant);
             stage.residual(&accepted, stage.lambda() + step, &operator)?;
             stage.factorise()?;

@@ -289,8 +289,14 @@ impl<'m> Stage<'m> {
         self.counters.force_evaluations += 1;
         // An evaluation that fails has been made nowhere.
         let mut kept = self.evaluated.take().map_or_else(Vec::new, |at| at.0);
-        self.assembler
-            .evaluate(self.model, u, self.state, ctx, &mut self.assembled)?;
+        let evaluated =
+            self.assembler
+                .evaluate(self.model, u, self.state, ctx, &mut self.assembled);
+        if evaluated.is_err() && ctx.operator != Operator::None {
+            // What has been added up so far is no stiffness.
+            self.assembled.matrix.lower.clear();
+        }
+        evaluated?;
         if ctx.operator == Operator::None {
             self.times.forces += begin.elapsed();
         } else {
@@ -347,9 +353,15 @@ impl<'m> Stage<'m> {
     ///
     /// # Errors
     ///
-    /// [`SolverError::Singular`] or [`SolverError::NotFinite`] naming node and DOF, or [`SolverError::Linear`].
+    /// [`SolverError::NotEvaluated`] before such an evaluation, [`SolverError::Singular`] or [`SolverError::NotFinite`]
+    /// naming node and DOF, or [`SolverError::Linear`].
     pub fn factorise(&mut self) -> Result<(), SolverError> {
         self.factorised(|linear, matrix| linear.factorize(matrix).map(Some))
+    }
+
+    /// Whether an operator has been evaluated, and the last one without failure.
+    pub(crate) fn has_operator(&self) -> bool {
+        self.assembled.matrix.lower.len() == self.assembler.pattern().nnz()
     }
 
     /// Hands the matrix over, and takes the signs of its pivots if it was factorised.
@@ -357,6 +369,9 @@ impl<'m> Stage<'m> {
         &mut self,
         hand_over: impl FnOnce(&mut DirectSolver, &MatrixValues) -> Result<Option<Inertia>, LinearError>,
     ) -> Result<(), SolverError> {
+        if !self.has_operator() {
+            return Err(SolverError::NotEvaluated);
+        }
         self.stable_tangent = false;
         let (result, time) = self.counted(hand_over);
         self.times.factorise += time;
