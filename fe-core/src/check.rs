@@ -28,8 +28,9 @@ const MOTIONS: [&str; 6] = [
 ///
 /// # Errors
 ///
-/// [`ModelError::NotHeld`] for the first part that can move.
+/// [`ModelError::NotHeld`] for the first part that can move, [`ModelError::ForeignConditions`] for those of another model.
 pub fn held(model: &Model, conditions: &Conditions) -> Result<(), ModelError> {
+    conditions.admit(model)?;
     for part in parts(model) {
         free_motion(model, conditions, &part)?;
     }

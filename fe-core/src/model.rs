@@ -299,6 +299,27 @@ impl Model {
         dofs.iter().map(|&d| u[d as usize]).collect()
     }
 
+    /// Refuses displacements and states of another model, as far as the numbers of DOFs and history variables tell.
+    pub(crate) fn admit(&self, u: &[f64], state: &StateStore) -> Result<(), ModelError> {
+        self.admit_at(0..self.elements.len(), u, state)
+    }
+
+    /// The same for some of the elements.
+    fn admit_at(
+        &self,
+        mut elements: std::ops::Range<usize>,
+        u: &[f64],
+        state: &StateStore,
+    ) -> Result<(), ModelError> {
+        let (found, expected) = (state.elements(), self.elements.len());
+        ModelError::same("displacements", u.len(), self.dofs.len())?;
+        ModelError::same("elements with a state", found, expected)?;
+        elements.try_for_each(|e| {
+            let (found, expected) = (state.range(e).len(), self.elements[e].state_len());
+            ModelError::same("history variables of an element", found, expected)
+        })
+    }
+
     /// Calls `visit` for every integration point of an element at the displacement `u` of all DOFs and the committed
     /// `state`.
     ///
@@ -312,17 +333,7 @@ impl Model {
         state: &StateStore,
         visit: &mut dyn FnMut(PointSample<'_>),
     ) -> Result<(), ModelError> {
-        ModelError::same("displacements", u.len(), self.dofs.len())?;
-        ModelError::same(
-            "elements with a state",
-            state.elements(),
-            self.elements.len(),
-        )?;
-        let (found, expected) = (
-            state.range(element).len(),
-            self.elements[element].state_len(),
-        );
-        ModelError::same("history variables of an element", found, expected)?;
+        self.admit_at(element..element + 1, u, state)?;
         self.elements[element]
             .sample(&self.gather(element, u), state.committed(element), visit)
             .map_err(|source| self.locate(element, source))

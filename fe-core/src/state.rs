@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::element::Element;
+use crate::model::ModelError;
 
 /// Internal variables of all elements in flat arrays.
 ///
@@ -37,10 +38,22 @@ impl StateStore {
     }
 
     /// Takes over the committed variables of a model whose elements are the first ones of this.
-    pub fn adopt(&mut self, other: &Self) {
-        let n = other.committed.len().min(self.committed.len());
-        self.committed[..n].copy_from_slice(&other.committed[..n]);
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError::Foreign`] if they are not, as far as the numbers of their variables tell; nothing is taken over then.
+    pub fn adopt(&mut self, other: &Self) -> Result<(), ModelError> {
+        let (found, expected) = (other.elements(), self.elements());
+        if found > expected {
+            ModelError::same("elements taken over", found, expected)?;
+        }
+        for (theirs, own) in other.offsets.iter().zip(&self.offsets) {
+            ModelError::same("history variables taken over", *theirs, *own)?;
+        }
+        let n = other.committed.len();
+        self.committed[..n].copy_from_slice(&other.committed);
         self.roll_back();
+        Ok(())
     }
 
     /// Number of elements.

@@ -7,12 +7,14 @@ use std::sync::Arc;
 
 use common::{Brick, Damage, Flaw, Truss};
 use fe_core::assembly::{Assembled, Assembler};
+use fe_core::check;
 use fe_core::dof::Dof;
 use fe_core::element::{Element, ElementSystem, EvaluationContext};
 use fe_core::grid::GridBuilder;
 use fe_core::material::Operator;
 use fe_core::mesh::Mesh;
 use fe_core::model::{Conditions, Model, ModelError};
+use fe_core::output::{bar_grid, cell_grid, interface_grid};
 use fe_core::state::StateStore;
 use nalgebra::{DMatrix, DVector};
 
@@ -283,6 +285,8 @@ fn what_belongs_to_another_model_is_refused() {
         assert_eq!(refused(b, a, a), "displacements");
         assert_eq!(refused(a, b, a), "elements with a state");
         assert_eq!(refused(a, a, b), "numbered DOFs");
+        let foreign = check::held(a, &Conditions::new(b));
+        assert!(matches!(foreign, Err(ModelError::ForeignConditions { .. })));
         let mut visit = |_: fe_core::element::PointSample<'_>| {};
         let (u, state) = (displacement(a), StateStore::new(a.elements()));
         a.sample(0, &u, &state, &mut visit).unwrap();
@@ -290,8 +294,14 @@ fn what_belongs_to_another_model_is_refused() {
             (displacement(b), StateStore::new(a.elements())),
             (displacement(a), StateStore::new(b.elements())),
         ] {
-            let foreign = a.sample(0, &u, &state, &mut visit);
-            assert!(matches!(foreign, Err(ModelError::Foreign { .. })));
+            for foreign in [
+                a.sample(0, &u, &state, &mut visit),
+                cell_grid(a, &u, &state).map(drop),
+                bar_grid(a, &u, &state).map(drop),
+                interface_grid(a, &u, &state).map(drop),
+            ] {
+                assert!(matches!(foreign, Err(ModelError::Foreign { .. })));
+            }
         }
     }
     // As many elements, none of which has a history.

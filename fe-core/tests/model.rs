@@ -359,4 +359,23 @@ fn the_state_store_commits_rolls_back_and_latches() {
     pull(&mut state, 0.0);
     assert_eq!(state.trial(1), [4e-4, 0.0]);
     assert_eq!(state.committed(1), [2e-4; 2]);
+
+    // A larger model takes the state over; a smaller one, or one with other histories, does not.
+    let law = Arc::new(Damage(Flaw::None));
+    let truss =
+        || -> Box<dyn Element> { Box::new(Truss::new([0, 1], &ends, law.clone(), Flaw::None)) };
+    let mut larger = StateStore::new(&[truss(), truss(), truss()]);
+    larger.adopt(&state).unwrap();
+    assert_eq!(larger.committed(1), state.committed(1));
+    assert_eq!(larger.committed(2), [0.0; 2]);
+    let brick: Box<dyn Element> = Box::new(Brick::new(&[0; 20], &[[0.0; 3]; 20]));
+    for mut other in [
+        StateStore::new(&[truss()]),
+        StateStore::new(&[truss(), brick, truss()]),
+    ] {
+        let before = other.clone();
+        let refused = other.adopt(&state);
+        assert!(matches!(refused, Err(ModelError::Foreign { .. })));
+        assert_eq!(other, before);
+    }
 }

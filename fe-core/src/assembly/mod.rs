@@ -224,15 +224,11 @@ impl Assembler {
         let (dofs, elements) = (model.dofs().len(), model.elements());
         ModelError::same("numbered DOFs", self.equation.len(), dofs)?;
         ModelError::same("numbered elements", self.element_dofs.len(), elements.len())?;
-        ModelError::same("displacements", u.len(), dofs)?;
-        ModelError::same("elements with a state", state.elements(), elements.len())?;
-        for (e, (element, numbered)) in elements.iter().zip(&self.element_dofs).enumerate() {
+        for (element, numbered) in elements.iter().zip(&self.element_dofs) {
             let own = element.nodes().len() * element.dofs().len();
             ModelError::same("numbered DOFs of an element", numbered.len(), own)?;
-            let (found, expected) = (state.range(e).len(), element.state_len());
-            ModelError::same("history variables of an element", found, expected)?;
         }
-        Ok(())
+        model.admit(u, state)
     }
 
     /// Adds the matrix of element `e`, of which only the upper triangle counts unless it is `full`.

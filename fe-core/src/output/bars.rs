@@ -16,12 +16,13 @@ const LINE: u8 = 3;
 ///
 /// # Errors
 ///
-/// [`ModelError::Element`].
+/// [`ModelError::Element`], and [`ModelError::Foreign`] for displacements or a state of another model.
 pub fn bar_grid(
     model: &Model,
     u: &[f64],
     state: &StateStore,
 ) -> Result<UnstructuredGrid, ModelError> {
+    model.admit(u, state)?;
     let mut grid = UnstructuredGrid::default();
     let mut displacement = DataArray::new("displacement", &["x", "y", "z"]);
     let mut stress = DataArray::scalar("axial_stress");

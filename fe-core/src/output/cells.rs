@@ -24,12 +24,13 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 ///
 /// # Errors
 ///
-/// [`ModelError::Element`].
+/// [`ModelError::Element`], and [`ModelError::Foreign`] for displacements or a state of another model.
 pub fn cell_grid(
     model: &Model,
     u: &[f64],
     state: &StateStore,
 ) -> Result<UnstructuredGrid, ModelError> {
+    model.admit(u, state)?;
     let mut displacement = DataArray::new("displacement", &AXES);
     for node in 0..model.mesh().nodes().len() {
         displacement.values.extend(model.displacement(node, u));

@@ -22,12 +22,13 @@ use crate::state::StateStore;
 ///
 /// # Errors
 ///
-/// [`ModelError::Element`].
+/// [`ModelError::Element`], and [`ModelError::Foreign`] for displacements or a state of another model.
 pub fn interface_grid(
     model: &Model,
     u: &[f64],
     state: &StateStore,
 ) -> Result<UnstructuredGrid, ModelError> {
+    model.admit(u, state)?;
     let mut grid = UnstructuredGrid::default();
     let mut displacement = DataArray::new("displacement", &["x", "y", "z"]);
     let mut jump = DataArray::new("jump", Interface::STRAIN_LABELS);

@@ -162,7 +162,7 @@ impl Beam {
             })
             .collect();
         let mut states = StateStore::new(beam.model.elements());
-        states.adopt(state);
+        states.adopt(state)?;
         for gauge in &mut beam.gauges {
             gauge.zero_at(&start);
         }
