@@ -68,7 +68,12 @@ struct Motion {
 #[derive(Debug, Clone, Default)]
 pub struct Explicit {
     settings: ExplicitSettings,
+    /// At the last step known to be accepted.
     motion: Motion,
+    /// At the end of the last attempt, not yet known to be accepted.
+    pending: Option<Motion>,
+    /// Accepted steps of the stage when it was looked at last.
+    seen: usize,
 }
 
 impl Explicit {
@@ -93,7 +98,7 @@ impl Explicit {
         SolverError::positive("ramp", ramp)?;
         Ok(Self {
             settings,
-            motion: Motion::default(),
+            ..Self::default()
         })
     }
 
@@ -153,7 +158,7 @@ impl Driver for Explicit {
 
     /// A motion begins at rest, also where another driver has led to.
     fn begin(&mut self) {
-        self.motion = Motion::default();
+        (self.motion, self.pending) = (Motion::default(), None);
     }
 
     fn attempt(
@@ -163,6 +168,12 @@ impl Driver for Explicit {
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
         let s = self.settings;
+        let steps = stage.counters().steps;
+        let pending = self.pending.take();
+        let accepted = std::mem::replace(&mut self.seen, steps) != steps;
+        if let Some(motion) = pending.filter(|_| accepted) {
+            self.motion = motion;
+        }
         let equations = stage.assembler().free().len();
         if self.motion.mass.is_empty() || self.motion.mass.len() != equations {
             self.motion = Self::start(stage)?;
@@ -210,7 +221,7 @@ impl Driver for Explicit {
         let finite = residual.relative.is_finite();
         let share = kinetic / motion.work.abs().max(f64::MIN_POSITIVE);
         if finite {
-            self.motion = motion;
+            self.pending = Some(motion);
         }
         let mean = sum.iter().map(|q| q / f64::from(count)).collect();
         Ok(Attempt {
@@ -235,7 +246,7 @@ impl Driver for Explicit {
             velocity,
             work,
             passed,
-        } = &self.motion;
+        } = self.pending.as_ref().unwrap_or(&self.motion);
         let scalars = [*omega, *work, *passed];
         scalars
             .iter()
@@ -250,6 +261,7 @@ impl Driver for Explicit {
             return;
         };
         let (mass, velocity) = rest.split_at(rest.len() / 2);
+        self.pending = None;
         self.motion = Motion {
             mass: mass.to_vec(),
             omega: *omega,

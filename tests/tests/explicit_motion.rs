@@ -4,10 +4,11 @@
 //! energy below 1e-3 of the work, falling with the square of the rate; continued from a journal, the same to the last bit.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use fe_core::dof::Dof;
-use fe_core::kinematics::Solid;
-use fe_core::material::Material;
+use fe_core::kinematics::{Kinematics, Solid};
+use fe_core::material::{Material, MaterialError, Operator, PointContext, Response, StateVar};
 use fe_core::model::{Conditions, Model};
 use fe_core::state::StateStore;
 use fe_elements::HexRule;
@@ -30,11 +31,53 @@ struct Seen {
     residuals: Vec<f64>,
 }
 
+/// Elasticity whose tangent cannot be had once, the first time that anything is strained.
+#[derive(Debug)]
+struct FailsOnce(Elastic, AtomicBool);
+
+impl Material<Solid> for FailsOnce {
+    fn name(&self) -> &'static str {
+        "fails once"
+    }
+
+    fn state_vars(&self) -> &[StateVar] {
+        &[]
+    }
+
+    fn update(
+        &self,
+        strain: &<Solid as Kinematics>::Vector,
+        committed: &[f64],
+        trial: &mut [f64],
+        ctx: &PointContext,
+    ) -> Result<Response<Solid>, MaterialError> {
+        let strained = ctx.operator == Operator::Tangent && strain.amax() > 0.0;
+        if strained && !self.1.swap(true, Ordering::Relaxed) {
+            return Err(MaterialError::Return {
+                law: "fails once",
+                residual: 1.0,
+                iterations: 1,
+            });
+        }
+        self.0.update(strain, committed, trial, ctx)
+    }
+}
+
 /// The whole way in twenty steps, shared by drivers that follow one another.
 fn run(drivers: &mut [&mut dyn Driver], earlier: Vec<Entry>) -> Seen {
+    let law = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
+    run_with(law, 0.05, drivers, earlier)
+}
+
+/// The same with a law and a first step.
+fn run_with(
+    law: Arc<dyn Material<Solid>>,
+    step: f64,
+    drivers: &mut [&mut dyn Driver],
+    earlier: Vec<Entry>,
+) -> Seen {
     let across = lines(0.0, 20.0, 1);
     let mesh = boxes(&lines(0.0, 120.0, 6), &across, &across).unwrap();
-    let law: Arc<dyn Material<Solid>> = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
     let elements = hexahedra(&mesh, HexRule::Full, &law).unwrap();
     let root = nodes_where(&mesh, |x| x[0] == 0.0);
     let tip = nodes_where(&mesh, |x| x[0] == 120.0 && x[1] == 20.0);
@@ -57,7 +100,7 @@ fn run(drivers: &mut [&mut dyn Driver], earlier: Vec<Entry>) -> Seen {
         seen.kinetic.push(view.kinetic);
         seen.residuals.push(view.residual);
     });
-    let control = StepControl::new(0.05, 1.0 / drivers.len() as f64);
+    let control = StepControl::new(step, 1.0 / drivers.len() as f64);
     for driver in drivers {
         control.run(&mut stage, *driver, &mut journal).unwrap();
     }
@@ -100,6 +143,27 @@ fn a_motion_begins_at_an_accepted_state() {
     let middle = 0.5 * (exact.loads[18] + exact.loads[19]);
     let error = seen.loads[19] / middle - 1.0;
     assert!(error.abs() < 0.01, "{error}");
+}
+
+/// The motion of a step that is given up, here since its stability cannot be told, has not happened: what follows is the
+/// motion in steps of half the length from the start.
+#[test]
+fn a_step_that_is_given_up_does_not_move_anything() {
+    let elastic = || Elastic::new(30_000.0, 0.2).unwrap();
+    let law = Arc::new(FailsOnce(elastic(), AtomicBool::new(false)));
+    let given_up = run_with(law, 0.05, &mut [&mut moving(10.0)], Vec::new());
+    let at_once = run_with(
+        Arc::new(elastic()),
+        0.025,
+        &mut [&mut moving(10.0)],
+        Vec::new(),
+    );
+    assert_eq!(
+        (given_up.kept[0].attempts, at_once.kept[0].attempts),
+        (2, 1)
+    );
+    assert_eq!(given_up.loads, at_once.loads);
+    assert_eq!(given_up.residuals, at_once.residuals);
 }
 
 #[test]
