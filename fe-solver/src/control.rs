@@ -218,7 +218,7 @@ impl StepControl {
                         attempt,
                         base: stage.state().base_changes(),
                         counters: *stage.counters(),
-                        load: None,
+                        check: None,
                         iterations: std::mem::take(&mut heard.iterations),
                         memory: driver.memory(),
                         notes: std::mem::take(&mut heard.notes),
@@ -357,18 +357,25 @@ impl StepControl {
             stage.read_off(&means.internal)?;
         }
         let load = stage.load();
-        match entry.load {
+        // Where forces alone grow the load is none.
+        let check = [load, stage.unbalance()];
+        match entry.check {
             None => {
-                entry.load = Some(load);
+                entry.check = Some(check);
                 recorder.keep(&entry)?;
             }
-            Some(was) if was.to_bits() != load.to_bits() => {
-                return Err(SolverError::Journal {
-                    step,
-                    what: format!("load {load} for {was}"),
-                });
+            Some(was) => {
+                let pairs = ["load", "residual"]
+                    .into_iter()
+                    .zip(check.into_iter().zip(was));
+                let differs = |(_, (now, was)): &(_, (f64, f64))| now.to_bits() != was.to_bits();
+                if let Some((what, (now, was))) = pairs.into_iter().find(differs) {
+                    return Err(SolverError::Journal {
+                        step,
+                        what: format!("{what} {now} for {was}"),
+                    });
+                }
             }
-            Some(_) => {}
         }
         let Entry {
             taken,
@@ -378,7 +385,7 @@ impl StepControl {
         } = entry;
         let increment = lambda - stage.lambda();
         let work_conjugate_load = stage.work_conjugate_load(&attempt.displacement, lambda);
-        stage.commit(attempt.displacement, lambda, attempt.held, signs);
+        stage.commit(attempt.displacement, lambda, attempt.held, signs)?;
         let view = StepView {
             step,
             lambda,

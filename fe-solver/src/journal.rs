@@ -32,8 +32,8 @@ pub struct Entry {
     pub base: Vec<(u32, f64)>,
     /// Work done before the step was accepted.
     pub counters: Counters,
-    /// Load of the accepted state, as a check; none before it is accepted.
-    pub load: Option<f64>,
+    /// Load and relative residual of the accepted state, as a check; none before it is accepted.
+    pub check: Option<[f64; 2]>,
     /// Iterations of all attempts.
     pub iterations: Vec<IterationRecord>,
     /// What the driver keeps beside the state of the stage.

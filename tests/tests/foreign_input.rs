@@ -156,22 +156,28 @@ fn a_law_that_gives_no_number_ends_a_run() {
     }
 }
 
-/// Journals of another model or spoilt ones are refused, whatever is wrong.
+/// Journals of another model or spoilt ones are refused, whatever is wrong; under forces too, of which no reaction is the load.
 #[test]
 fn a_spoilt_journal_is_refused() {
     let (model, conditions) = row(1);
-    let run = |earlier: Option<Entry>| {
+    let stiffer: Arc<dyn Material<_>> = Arc::new(Elastic::new(101.0, 0.0).unwrap());
+    let (stiffer, _) = held(1, &stiffer);
+    let on = |model: &Model, earlier: Option<Entry>| {
         let mut state = StateStore::new(model.elements());
         let zero = vec![0.0; model.dofs().len()];
-        let mut stage = Stage::new(&model, conditions.clone(), &mut state, zero).unwrap();
+        let mut stage = Stage::new(model, conditions.clone(), &mut state, zero).unwrap();
         let mut driver = NewtonRaphson::new(NewtonSettings::default());
         let mut journal = Journal::after(earlier, |_| {});
         let end = StepControl::new(1.0, 1.0).run(&mut stage, &mut driver, &mut journal);
         (end, journal.kept.pop())
     };
+    let run = |earlier| on(&model, earlier);
     let entry = run(None).1.unwrap();
     assert!(run(Some(entry.clone())).0.is_ok());
-    let spoilt: [fn(&mut Entry); 4] = [
+    let foreign = on(&stiffer, Some(entry.clone())).0;
+    assert!(matches!(foreign, Err(SolverError::Journal { .. })));
+    let spoilt: [fn(&mut Entry); 5] = [
+        |e| e.attempt.lambda = 0.5,
         |e| e.taken = f64::NAN,
         |e| e.length = -1.0,
         |e| {

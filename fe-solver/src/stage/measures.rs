@@ -66,6 +66,12 @@ impl Stage<'_> {
         }
     }
 
+    /// Relative residual of the last evaluation.
+    pub(crate) fn unbalance(&self) -> f64 {
+        let residual: Vec<f64> = self.unbalanced().collect();
+        self.measure(&residual).relative
+    }
+
     /// A force (N), or a moment (N mm) as a couple of forces.
     fn as_force(&self, dof: usize, value: f64) -> f64 {
         self.levers.get(dof).map_or(value, |lever| value / lever)
@@ -85,8 +91,11 @@ impl Stage<'_> {
         let dl = lambda - self.lambda;
         let mut dead = vec![0.0; u.len()];
         self.conditions.external(0.0, &mut dead);
-        let work: f64 = (0..u.len())
-            .map(|d| (self.assembled.internal[d] - dead[d]) * (u[d] - self.displacement[d]))
+        let forces = self.assembled.internal.iter().zip(&dead);
+        let ways = u.iter().zip(&self.displacement);
+        let work: f64 = forces
+            .zip(ways)
+            .map(|((q, f), (to, from))| (q - f) * (to - from))
             .sum();
         work / dl
     }

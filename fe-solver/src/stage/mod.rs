@@ -505,7 +505,18 @@ impl<'m> Stage<'m> {
     /// Accepts displacement, load factor and the trial state of the last evaluation, which has been
     /// [weighed](Self::weigh). The increment of a `held` step, which passed a snap, says nothing about the next one and is
     /// forgotten. `signs` are those of the tangent there, if they were counted.
-    pub fn commit(&mut self, u: Vec<f64>, lambda: f64, held: bool, signs: Option<Signs>) {
+    ///
+    /// # Errors
+    ///
+    /// [`SolverError::Mismatch`] for a `u` of another model.
+    pub fn commit(
+        &mut self,
+        u: Vec<f64>,
+        lambda: f64,
+        held: bool,
+        signs: Option<Signs>,
+    ) -> Result<(), SolverError> {
+        SolverError::length("displacement", u.len(), self.start.len())?;
         (self.signs, self.uncounted) = match signs {
             Some(signs) => (signs, 0),
             None => (self.signs, self.uncounted + 1),
@@ -524,6 +535,7 @@ impl<'m> Stage<'m> {
         self.evaluated = None;
         self.ledger.settle();
         self.counters.steps += 1;
+        Ok(())
     }
 
     /// Name of a DOF for messages.
