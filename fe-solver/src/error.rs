@@ -20,7 +20,7 @@ pub enum SolverError {
     #[error(
         "the stiffness is singular at {dof} of node {node} at {position:?} mm (pivot ratio {ratio:.1e}): \
          the model, or a part of it, is not held there; add a support or connect the part, or, if it has just come \
-         loose, end before (multipliers, with zeros on the diagonal, are not served)"
+         loose, end before"
     )]
     Singular {
         /// Node.

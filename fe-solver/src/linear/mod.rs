@@ -4,9 +4,9 @@
 //! it is not, which also counts the negative pivots; L U, pivoting inside a front, for unsymmetric values. Multifrontal
 //! (Duff and Reid 1983) on dense kernels; independent subtrees in parallel, with the same bits for any number of threads.
 //!
-//! Pivots stay in their front. That serves stiffnesses, whose diagonal is positive, also where they have become indefinite;
-//! a regular matrix with zeros on its diagonal, as of multipliers, may be refused as singular. Prescribed displacements
-//! and followers need none.
+//! Pivots stay in their front. That serves stiffnesses, whose diagonal is positive, also where they have become indefinite.
+//! A zero on the diagonal, as of a multiplier, that leaves no pivot in its front is filled, and solutions are refined; a part
+//! that nothing but multipliers holds may still be refused as singular. Prescribed displacements and followers need none.
 //!
 //! A matrix near the one whose L L^T is at hand may be solved by conjugate gradients with that factor instead, where
 //! counted operations say that it is cheaper, see [`LinearSolver::renew`].
@@ -42,6 +42,7 @@ mod order;
 mod probe;
 mod tree;
 mod triangular;
+mod zeros;
 
 pub use error::LinearError;
 pub use fe_core::sparsity::{MatrixValues, Sparsity};
@@ -284,6 +285,11 @@ impl LinearSolver for DirectSolver {
                 .and_then(|_| probe::regular(pattern, values, |x| factor.solve(fronts, x)))
                 .map(|()| 0)
         };
+        let result = if diagonal.iter().any(|&k| values.lower[k] == 0.0) {
+            beside_zeros(result, factor, (fronts, pattern, values), &mut self.stats)
+        } else {
+            result
+        };
         // A value that is not finite makes a pivot so.
         let negative = result.map_err(|error| match not_finite(values) {
             Some(position) => LinearError::NotFinite { position },
@@ -385,6 +391,48 @@ fn decompose_symmetric(
     stats.indefinite += 1;
     factor.factorize(fronts, values, diagonal, Kind::Indefinite)?;
     Ok(factor.negative(fronts))
+}
+
+/// What has come of a matrix with zeros on its diagonal: its `result`, if that holds, or that of L B L^T or L U with the zeros
+/// filled, see [`zeros`].
+fn beside_zeros(
+    result: Result<usize, LinearError>,
+    factor: &mut Factor,
+    (fronts, pattern, values): (&Fronts, &Sparsity, &MatrixValues),
+    stats: &mut LinearStats,
+) -> Result<usize, LinearError> {
+    let scales = probe::scales(pattern, values);
+    let served =
+        |factor: &mut Factor| zeros::served(pattern, values, &scales, |x| factor.solve(fronts, x));
+    let refused = match result {
+        Ok(negative) => match served(factor) {
+            Ok(()) => return Ok(negative),
+            Err(equation) => LinearError::Singular {
+                equation,
+                pivot_ratio: 0.0,
+            },
+        },
+        Err(error @ LinearError::Singular { .. }) => error,
+        Err(error) => return Err(error),
+    };
+    let Some(filled) = zeros::filled(pattern, values, &scales) else {
+        return Err(refused);
+    };
+    let kind = if values.is_symmetric() {
+        stats.indefinite += 1;
+        Kind::Indefinite
+    } else {
+        stats.general += 1;
+        Kind::General
+    };
+    let diagonal = &pattern.col_ptr()[..pattern.len()];
+    match factor.factorize(fronts, &filled, diagonal, kind) {
+        Ok(_) if served(factor).is_ok() => Ok(match kind {
+            Kind::General => 0,
+            Kind::Definite | Kind::Indefinite => factor.negative(fronts),
+        }),
+        Ok(_) | Err(_) => Err(refused),
+    }
 }
 
 /// Position of a value that is not finite.

@@ -19,9 +19,7 @@ pub(super) fn regular(
     solve: impl FnOnce(&mut [f64]),
 ) -> Result<(), LinearError> {
     let scales = scales(pattern, values);
-    // Multiples of the golden ratio: no rigid-body mode is orthogonal to them.
-    let weight = |i: usize| 0.5 + (0.618_033_988_749_895 * i as f64).fract();
-    let mut x: Vec<f64> = (0..).zip(&scales).map(|(i, s)| weight(i) * s).collect();
+    let mut x = load(&scales);
     solve(&mut x);
     let mut worst = (0, 0.0);
     for (i, (v, s)) in x.iter().zip(&scales).enumerate() {
@@ -45,27 +43,49 @@ pub(super) fn regular(
     Ok(())
 }
 
+/// The probe b.
+pub(super) fn load(scales: &[f64]) -> Vec<f64> {
+    // Multiples of the golden ratio: no rigid-body mode is orthogonal to them.
+    let weight = |i: usize| 0.5 + (0.618_033_988_749_895 * i as f64).fract();
+    (0..).zip(scales).map(|(i, s)| weight(i) * s).collect()
+}
+
 /// Scale of every equation: the root of its diagonal entry. Where that is zero, its largest coupling over the scale of what it
-/// couples with, which a scaling changes alike; 0 for an equation that is coupled with no other scale.
-fn scales(pattern: &Sparsity, values: &MatrixValues) -> Vec<f64> {
+/// couples with, which a scaling changes alike, or, where that has none either, the root of the coupling; 0 without any.
+pub(super) fn scales(pattern: &Sparsity, values: &MatrixValues) -> Vec<f64> {
     let diagonal = &pattern.col_ptr()[..pattern.len()];
     let roots: Vec<f64> = diagonal
         .iter()
         .map(|&k| values.lower[k].abs().sqrt())
         .collect();
-    let mut scales = roots.clone();
     if roots.iter().all(|r| *r > 0.0) {
-        return scales;
+        return roots;
     }
+    let upper = if values.is_symmetric() {
+        &values.lower
+    } else {
+        &values.upper
+    };
+    let mut scales = roots.clone();
+    let mut without = vec![0.0_f64; roots.len()];
     for j in 0..pattern.len() {
         for k in pattern.column(j).skip(1) {
             let i = pattern.row_idx()[k];
-            let coupling = values.lower[k].abs().max(values.upper[k].abs());
+            let coupling = values.lower[k].abs().max(upper[k].abs());
             for (own, other) in [(i, j), (j, i)] {
-                if roots[own] == 0.0 && roots[other] > 0.0 {
+                if roots[own] > 0.0 {
+                    continue;
+                }
+                if roots[other] > 0.0 {
                     scales[own] = scales[own].max(coupling / roots[other]);
                 }
+                without[own] = without[own].max(coupling.sqrt());
             }
+        }
+    }
+    for (scale, without) in scales.iter_mut().zip(without) {
+        if *scale == 0.0 {
+            *scale = without;
         }
     }
     scales

@@ -397,3 +397,76 @@ fn the_verdict_on_an_unsymmetric_matrix_is_that_of_any_scaling() {
         }
     }
 }
+
+/// A chain in fronts of one or two equations, tridiagonal, with the given diagonal and ones beside it.
+fn chain(diagonal: &[f64], unsymmetric: bool) -> (Sparsity, MatrixValues) {
+    let n = diagonal.len() as u32;
+    let groups: Vec<Vec<u32>> = (0..n - 1).map(|i| vec![i, i + 1]).collect();
+    let p = Sparsity::from_groups(n as usize, groups.iter().map(Vec::as_slice));
+    let mut lower = vec![1.0; p.nnz()];
+    for (&k, d) in p.col_ptr().iter().zip(diagonal) {
+        lower[k] = *d;
+    }
+    let upper = if unsymmetric {
+        lower.clone()
+    } else {
+        Vec::new()
+    };
+    (p, MatrixValues { lower, upper })
+}
+
+/// Zeros on the diagonal that leave no pivot in their front: of multipliers between springs, first or last in the order, and
+/// of a chain of nothing but zeros, which is regular with an even number of equations and singular with an odd one. Source:
+/// dense eigenvalues.
+#[test]
+fn zeros_on_the_diagonal_are_served() {
+    let multipliers = |first: usize| -> Vec<f64> {
+        let zero = |i: usize| i % 2 == first;
+        (0..12).map(|i| if zero(i) { 0.0 } else { 2.0 }).collect()
+    };
+    let diagonals = [multipliers(0), multipliers(1), vec![0.0; 12], vec![0.0; 11]];
+    for (diagonal, regular) in diagonals.iter().zip([true, true, true, false]) {
+        for unsymmetric in [false, true] {
+            let (p, v) = chain(diagonal, unsymmetric);
+            let b: Vec<f64> = (0..p.len()).map(|i| 1.0 + (i as f64).sin()).collect();
+            let mut solver = DirectSolver::default();
+            solver.analyze(&p).unwrap();
+            let inertia = solver.factorize(&v);
+            assert_eq!(inertia.is_ok(), regular, "{diagonal:?}: {inertia:?}");
+            let Ok(inertia) = inertia else { continue };
+            let eigenvalues = dense(&p, &v).symmetric_eigenvalues();
+            let negative = eigenvalues.iter().filter(|w| **w < 0.0).count();
+            assert_eq!(inertia.negative, if unsymmetric { 0 } else { negative });
+            let mut x = b.clone();
+            solver.solve_in_place(&mut x).unwrap();
+            let defect = defect(&p, &v, &x, &b);
+            assert!(defect < 1e-13, "{diagonal:?}: {defect}");
+        }
+    }
+}
+
+/// One constraint given by two multipliers leaves a matrix singular whose last pivot is rounding beside a zero.
+#[test]
+fn a_constraint_given_twice_is_singular() {
+    let all: Vec<u32> = (0..6).collect();
+    let p = Sparsity::from_groups(6, std::iter::once(all.as_slice()));
+    for seed in 0..200 {
+        for unsymmetric in [false, true] {
+            let mut v = values(&p, seed, |j| if j < 4 { 3.0 } else { 0.0 }, false);
+            for j in 0..4 {
+                v.lower[p.position(5, j).unwrap()] = v.lower[p.position(4, j).unwrap()];
+            }
+            v.lower[p.position(5, 4).unwrap()] = 0.0;
+            if unsymmetric {
+                v.upper = v.lower.clone();
+            }
+            let mut solver = DirectSolver::default();
+            solver.analyze(&p).unwrap();
+            let refused = solver.factorize(&v);
+            assert!(
+                matches!(refused, Err(LinearError::Singular { .. })),
+                "{seed}: {refused:?}"
+            );
+        }
+    }
+}
