@@ -65,20 +65,20 @@ impl Material<Solid> for FailsOnce {
 
 /// The whole way in twenty steps, shared by drivers that follow one another.
 fn run(drivers: &mut [&mut dyn Driver], earlier: Vec<Entry>) -> Seen {
-    let law = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
-    run_with(law, 0.05, drivers, earlier)
+    let law: Arc<dyn Material<Solid>> = Arc::new(Elastic::new(30_000.0, 0.2).unwrap());
+    run_with(&law, 0.05, drivers, earlier)
 }
 
 /// The same with a law and a first step.
 fn run_with(
-    law: Arc<dyn Material<Solid>>,
+    law: &Arc<dyn Material<Solid>>,
     step: f64,
     drivers: &mut [&mut dyn Driver],
     earlier: Vec<Entry>,
 ) -> Seen {
     let across = lines(0.0, 20.0, 1);
     let mesh = boxes(&lines(0.0, 120.0, 6), &across, &across).unwrap();
-    let elements = hexahedra(&mesh, HexRule::Full, &law).unwrap();
+    let elements = hexahedra(&mesh, HexRule::Full, law).unwrap();
     let root = nodes_where(&mesh, |x| x[0] == 0.0);
     let tip = nodes_where(&mesh, |x| x[0] == 120.0 && x[1] == 20.0);
     let model = Model::new(mesh, elements).unwrap();
@@ -150,14 +150,10 @@ fn a_motion_begins_at_an_accepted_state() {
 #[test]
 fn a_step_that_is_given_up_does_not_move_anything() {
     let elastic = || Elastic::new(30_000.0, 0.2).unwrap();
-    let law = Arc::new(FailsOnce(elastic(), AtomicBool::new(false)));
-    let given_up = run_with(law, 0.05, &mut [&mut moving(10.0)], Vec::new());
-    let at_once = run_with(
-        Arc::new(elastic()),
-        0.025,
-        &mut [&mut moving(10.0)],
-        Vec::new(),
-    );
+    let fails: Arc<dyn Material<Solid>> = Arc::new(FailsOnce(elastic(), AtomicBool::new(false)));
+    let holds: Arc<dyn Material<Solid>> = Arc::new(elastic());
+    let [given_up, at_once] = [(&fails, 0.05), (&holds, 0.025)]
+        .map(|(law, step)| run_with(law, step, &mut [&mut moving(10.0)], Vec::new()));
     assert_eq!(
         (given_up.kept[0].attempts, at_once.kept[0].attempts),
         (2, 1)
