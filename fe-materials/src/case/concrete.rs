@@ -7,7 +7,7 @@ use super::CaseError;
 use crate::concrete::ConcreteScalars;
 
 /// A concrete by its cylinder strength, from which [`ConcreteScalars`] follow; a property that is given
-/// replaces the derived one. Exactly one of the two strengths.
+/// replaces the derived one, and is refused where the law makes no use of it. Exactly one of the two strengths.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ConcreteCase {
@@ -23,16 +23,45 @@ pub struct ConcreteCase {
     pub poisson: Option<f64>,
     /// Strain at the compressive strength, positive (-).
     pub eps_c1: Option<f64>,
-    /// Strain at which the compression curve ends, positive (-).
+    /// Strain at which the compression curve ends, positive (-); without use in [`FixedCrack`](crate::fixed_crack::FixedCrack),
+    /// whose curve ends by the crushing energy.
     pub eps_c_lim: Option<f64>,
-    /// Fracture energy (N/mm).
+    /// Fracture energy (N/mm); without use in laws that have no crack band: [`Associated`](crate::concrete::Associated),
+    /// [`Isochoric`](crate::concrete::Isochoric) and [`Reference`](crate::concrete::Reference).
     pub fracture_energy_n_per_mm: Option<f64>,
+}
+
+/// A property that some laws make no use of.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Property {
+    LimitStrain,
+    FractureEnergy,
 }
 
 /// More than the toughest fibre concrete takes (N/mm, assumed): beyond it, the unit is another.
 const LARGEST_FRACTURE_ENERGY: f64 = 50.0;
 
 impl ConcreteCase {
+    /// The properties for a law of the given name that makes no use of one of them.
+    ///
+    /// # Errors
+    ///
+    /// [`CaseError::Unused`] where that one is given, otherwise as [`Self::build`].
+    pub(super) fn build_for(
+        &self,
+        law: &'static str,
+        without: Property,
+    ) -> Result<ConcreteScalars, CaseError> {
+        let (property, given) = match without {
+            Property::LimitStrain => ("eps_c_lim", self.eps_c_lim),
+            Property::FractureEnergy => ("fracture_energy_n_per_mm", self.fracture_energy_n_per_mm),
+        };
+        match given {
+            Some(_) => Err(CaseError::Unused { law, property }),
+            None => self.build(),
+        }
+    }
+
     /// The properties.
     ///
     /// # Errors

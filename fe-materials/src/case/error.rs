@@ -19,6 +19,14 @@ pub enum CaseError {
         /// How many are given.
         given: usize,
     },
+    /// A property of the concrete is given that the law makes no use of.
+    #[error("concrete: the law {law} makes no use of {property}; remove it")]
+    Unused {
+        /// Name of the law.
+        law: &'static str,
+        /// Name of the property.
+        property: &'static str,
+    },
     /// A segment names a component that the law does not have.
     #[error("program, segment {segment}: {field} has no component {name:?}; it has {allowed}")]
     Component {

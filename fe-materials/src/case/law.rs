@@ -4,6 +4,7 @@ use fe_core::kinematics::{Axial, PlaneStress, Solid};
 use fe_core::material::{Material, PointContext};
 use serde::{Deserialize, Serialize};
 
+use super::concrete::Property;
 use super::{CaseError, ConcreteCase};
 use crate::concrete::{
     Associated, Calibration, Isochoric, Objective, Ottosen, Reference, ReferenceParameters,
@@ -199,7 +200,7 @@ impl LawCase {
     ///
     /// # Errors
     ///
-    /// [`CaseError::Law`] if a parameter is impossible, [`CaseError::Strength`].
+    /// [`CaseError::Law`] if a parameter is impossible, [`CaseError::Strength`], [`CaseError::Unused`].
     pub fn build(&self) -> Result<BuiltLaw, CaseError> {
         Ok(match self {
             Self::Elastic { young_mpa, poisson } => solid(Elastic::new(*young_mpa, *poisson)?),
@@ -220,8 +221,14 @@ impl LawCase {
                 *yield_mpa,
                 *hardening_mpa,
             )?),
-            Self::Associated { concrete } => solid(Associated::new(&concrete.build()?)?),
-            Self::Isochoric { concrete } => solid(Isochoric::new(&concrete.build()?)?),
+            Self::Associated { concrete } => {
+                let c = concrete.build_for("Associated", Property::FractureEnergy)?;
+                solid(Associated::new(&c)?)
+            }
+            Self::Isochoric { concrete } => {
+                let c = concrete.build_for("Isochoric", Property::FractureEnergy)?;
+                solid(Isochoric::new(&c)?)
+            }
             Self::Objective { concrete, .. } => solid(Objective::new(&concrete.build()?)?),
             Self::Reference {
                 concrete,
@@ -231,7 +238,8 @@ impl LawCase {
                 stiffening_end,
                 shear_floor,
             } => {
-                let default = ReferenceParameters::new(concrete.build()?, *stiffening);
+                let c = concrete.build_for("Reference", Property::FractureEnergy)?;
+                let default = ReferenceParameters::new(c, *stiffening);
                 solid(Reference::new(&ReferenceParameters {
                     retention: *retention,
                     stiffening_share: stiffening_share.unwrap_or(default.stiffening_share),
@@ -253,7 +261,7 @@ impl LawCase {
                 ottosen_onset,
                 ..
             } => {
-                let c = concrete.build()?;
+                let c = concrete.build_for("FixedCrack", Property::LimitStrain)?;
                 let default =
                     FixedCrackParameters::from_strength(c.fcm_mpa, c.fctm_mpa, c.young_mpa);
                 let p = FixedCrackParameters {

@@ -130,6 +130,33 @@ fn bar_sample_gives_the_printed_stresses() {
     }
 }
 
+/// A property that a law would pass over in silence is refused with its name and that of the law; where it counts, it is taken.
+#[test]
+fn properties_without_use_are_refused() {
+    let limit = ("eps_c_lim", "eps_c_lim: 0.004");
+    let energy = ("fracture_energy_n_per_mm", "fracture_energy_n_per_mm: 0.1");
+    let reference = "stiffening: Stirrups";
+    for (law, rest, (property, given), used) in [
+        ("FixedCrack", "band_width_mm: 30", limit, false),
+        ("FixedCrack", "band_width_mm: 30", energy, true),
+        ("Objective", "band_width_mm: 30", limit, true),
+        ("Objective", "band_width_mm: 30", energy, true),
+        ("Reference", reference, limit, true),
+        ("Reference", reference, energy, false),
+        ("Isochoric", "", limit, true),
+        ("Isochoric", "", energy, false),
+        ("Associated", "", energy, false),
+    ] {
+        let text = format!("{law}(concrete: (fck_mpa: 30, {given}), {rest})");
+        let found = case(&text, r#"strain: {"eps_xx": -0.0001}"#).run();
+        if used {
+            assert_eq!(found.map(|run| run.result), Ok(Ok(())), "{text}");
+        } else {
+            assert_eq!(found, Err(CaseError::Unused { law, property }), "{text}");
+        }
+    }
+}
+
 /// A mistake in a file is one error that says what to change.
 #[test]
 fn mistakes_are_named() {
