@@ -3,7 +3,7 @@
 use fe_core::limits;
 use fe_core::material::MaterialError;
 
-pub(crate) use fe_core::limits::{finite, out_of_range};
+pub(crate) use fe_core::limits::{finite, out_of_range, relaxes};
 
 /// Refuses parameters, given as name, value and unit, that are not positive finite numbers.
 pub(crate) fn positive(

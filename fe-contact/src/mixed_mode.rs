@@ -7,7 +7,7 @@ use fe_core::material::{
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::limits::{finite, out_of_range, positive};
+use crate::limits::{finite, out_of_range, positive, relaxes};
 
 const LAW: &str = "mixed-mode delamination";
 
@@ -233,6 +233,7 @@ impl Material<Interface> for MixedMode {
         ctx: &PointContext,
     ) -> Result<Response<Interface>, MaterialError> {
         finite(LAW, jump)?;
+        relaxes(LAW, ctx.relaxation)?;
         let k = self.p.stiffness_mpa_per_mm;
         let before = Self::damage(committed);
         let (driving, gradient) = self.driving(jump);

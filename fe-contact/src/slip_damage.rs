@@ -9,7 +9,7 @@ use fe_core::material::{
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use crate::envelope::Envelope;
-use crate::limits::{finite, positive};
+use crate::limits::{finite, positive, relaxes};
 use crate::normal::{BondSettings, Normal};
 
 /// Least 1 - d of the secant operator; does not enter the stress.
@@ -138,6 +138,7 @@ impl Material<Interface> for SlipDamage {
         ctx: &PointContext,
     ) -> Result<Response<Interface>, MaterialError> {
         finite(self.name(), jump)?;
+        relaxes(self.name(), ctx.relaxation)?;
         let slip = Vector2::new(jump[0], jump[1]);
         let (size, opening) = (slip.norm(), jump[2]);
         let before = Self::slip_max(committed);

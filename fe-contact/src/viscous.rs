@@ -8,7 +8,7 @@ use fe_core::material::{
 };
 use nalgebra::Vector3;
 
-use crate::limits::out_of_range;
+use crate::limits::{out_of_range, relaxes};
 
 const LAW: &str = "artificial viscosity";
 
@@ -95,6 +95,7 @@ impl Material<Interface> for Viscous {
         trial: &mut [f64],
         ctx: &PointContext,
     ) -> Result<Response<Interface>, MaterialError> {
+        relaxes(LAW, ctx.relaxation)?;
         let n = self.law.state_len();
         let (before, rest) = committed.split_at(n);
         let (own, new) = trial.split_at_mut(n);

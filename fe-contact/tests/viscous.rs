@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use fe_contact::envelope::{Bilinear, LuJoint};
-use fe_contact::{BondSettings, SlipDamage, Viscous};
+use fe_contact::{BondSettings, Interface, MixedMode, MixedModeParameters, SlipDamage, Viscous};
 use fe_core::material::{Material, MaterialError, Operator, PointContext};
 use nalgebra::Vector3;
 
@@ -82,5 +82,36 @@ fn tangent_is_that_of_the_lagging_damage() {
 fn impossible_shares_are_refused() {
     for share in [0.0, 1.5, f64::NAN] {
         assert!(matches!(law(share), Err(MaterialError::Parameter { .. })));
+    }
+}
+
+/// A share of growth that is none would write a history that is no number, or one that heals: every law refuses it.
+#[test]
+fn relaxations_outside_their_range_are_refused() {
+    let delamination = MixedMode::new(MixedModeParameters {
+        stiffness_mpa_per_mm: 1e4,
+        normal_strength_mpa: 30.0,
+        shear_strength_mpa: 60.0,
+        mode_1_energy_n_per_mm: 0.3,
+        mode_2_energy_n_per_mm: 1.0,
+        exponent: 1.8,
+        residual: 1e-6,
+    });
+    let laws: [Box<dyn Material<Interface>>; 3] = [
+        Box::new(SlipDamage::new(bond(), BondSettings::default()).unwrap()),
+        Box::new(delamination.unwrap()),
+        Box::new(law(0.3).unwrap()),
+    ];
+    for law in laws {
+        let (state, mut trial) = (vec![0.0; law.state_len()], vec![0.0; law.state_len()]);
+        for relaxation in [f64::NAN, f64::INFINITY, -0.1, 1.5] {
+            let ctx = PointContext {
+                relaxation,
+                ..PointContext::new(1.0)
+            };
+            let refused = law.update(&Vector3::new(0.1, 0.0, 0.1), &state, &mut trial, &ctx);
+            let refused = refused.unwrap_err().to_string();
+            assert!(refused.contains("relaxation"), "{refused}");
+        }
     }
 }
