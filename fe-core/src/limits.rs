@@ -42,7 +42,11 @@ pub fn positive(
     ))
 }
 
-/// Refuses a strain or jump that is not a number.
+/// Largest strain (-) or jump (mm) of a component that laws answer: third powers of the stresses of larger ones leave the
+/// range of numbers, and what comes out is none.
+pub const LARGEST_STRAIN: f64 = 1e90;
+
+/// Refuses a strain or jump that is not a number, or beyond [`LARGEST_STRAIN`].
 ///
 /// # Errors
 ///
@@ -51,7 +55,10 @@ pub fn finite<const N: usize>(
     law: &'static str,
     strain: &SVector<f64, N>,
 ) -> Result<(), MaterialError> {
-    match strain.iter().position(|e| !e.is_finite()) {
+    match strain
+        .iter()
+        .position(|e| e.is_nan() || e.abs() > LARGEST_STRAIN)
+    {
         Some(component) => Err(MaterialError::NotFinite { law, component }),
         None => Ok(()),
     }
@@ -75,4 +82,22 @@ pub fn relaxes(law: &'static str, relaxation: f64) -> Result<(), MaterialError> 
         "[0, 1]",
         remedy,
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    //! Protects laws against strains whose powers are no numbers.
+    use super::*;
+
+    #[test]
+    fn strains_without_stress_are_refused() {
+        for good in [0.0, -1e-300, 1e60, -LARGEST_STRAIN] {
+            assert_eq!(finite("law", &SVector::from([0.0, good])), Ok(()));
+        }
+        for bad in [f64::NAN, f64::INFINITY, -1.01 * LARGEST_STRAIN, 1e200] {
+            let error = finite("law", &SVector::from([0.0, bad])).unwrap_err();
+            let (law, component) = ("law", 1);
+            assert_eq!(error, MaterialError::NotFinite { law, component });
+        }
+    }
 }

@@ -152,8 +152,8 @@ pub enum MaterialError {
         /// Iterations spent.
         iterations: usize,
     },
-    /// The strain is not a number.
-    #[error("{law}: strain component {component} is not finite")]
+    /// The strain is not a number, or so large that its stress is none.
+    #[error("{law}: strain component {component} is not finite, or beyond 1e90")]
     NotFinite {
         /// The law.
         law: &'static str,

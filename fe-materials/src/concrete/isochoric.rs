@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use super::elastic_bound::surely_elastic;
 use super::plastic_state::{PLASTIC_VARS, PlasticState, RETURN_TOLERANCE, YIELD_TOLERANCE};
-use super::root::bracketed_root;
+use super::root::{bracketed_root, is_number};
 use super::{Calibration, CompressionCurve, ConcreteScalars, Ottosen};
 use crate::elasticity::Elasticity;
 use crate::limits::finite;
@@ -157,7 +157,10 @@ impl Isochoric {
         let principal = flow.principal(rho);
         let tangent = if operator == Operator::Tangent {
             let n = self.clipped_gradient(&principal).1;
-            self.consistent_tangent(&flow, &axes, &n, increment, point.hardening_modulus())
+            let hardening = point.hardening_modulus();
+            let tangent = self.consistent_tangent(&flow, &axes, &n, increment, hardening);
+            is_number(LAW, &tangent)?;
+            tangent
         } else {
             self.elastic.stiffness
         };

@@ -1,6 +1,7 @@
 //! Safeguarded Newton iteration on one unknown.
 
 use fe_core::material::MaterialError;
+use nalgebra::Matrix6;
 
 /// Iterations after which a root counts as not found; bisection alone needs about 60.
 const MAX_ITERATIONS: usize = 200;
@@ -22,6 +23,18 @@ impl NotConverged {
             iterations: self.iterations,
         }
     }
+}
+
+/// Refuses a tangent that is no number: strains from about 1e10 on leave nothing of the strength but rounding.
+pub(crate) fn is_number(law: &'static str, tangent: &Matrix6<f64>) -> Result<(), MaterialError> {
+    if tangent.iter().all(|d| d.is_finite()) {
+        return Ok(());
+    }
+    let failure = NotConverged {
+        residual: f64::NAN,
+        iterations: 0,
+    };
+    Err(failure.of(law, 1.0))
 }
 
 /// A root of f, which is continuous with f(low) >= 0 >= f(high), where |f| <= `tolerance` or the bracket

@@ -107,12 +107,7 @@ impl FixedCrack {
         (envelopes, known): (&Envelopes, Option<&Principal>),
         out: &mut Response<Solid>,
     ) -> Result<(), MaterialError> {
-        if let Some(component) = strain.iter().position(|e| !e.is_finite()) {
-            return Err(MaterialError::NotFinite {
-                law: NAME,
-                component,
-            });
-        }
+        crate::limits::finite(NAME, strain)?;
         let mut state = State::read(committed);
         let onset = !state.cracked;
         let intact = onset && {

@@ -10,7 +10,7 @@ use fe_core::voigt::{principal, stress_tensor, stress_voigt};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use super::plastic_state::{PLASTIC_VARS, PlasticState, RETURN_TOLERANCE, YIELD_TOLERANCE};
-use super::root::{NotConverged, bracketed_root};
+use super::root::{NotConverged, bracketed_root, is_number};
 use super::spectral::{from_principal, spin_quotients};
 use super::{Calibration, CompressionCurve, ConcreteScalars, CurvePoint, Ottosen};
 use crate::elasticity::Elasticity;
@@ -18,6 +18,10 @@ use crate::limits::finite;
 use projection::{Projected, Projection};
 
 const LAW: &str = "associated Ottosen plasticity";
+
+/// Effective stress over the strength up to which the virgin law is elastic, to any digit: the derivatives of smaller ones
+/// leave the range of numbers.
+const NOTHING: f64 = 1e-50;
 
 /// Associated plasticity with the Ottosen surface as loading surface.
 ///
@@ -156,7 +160,8 @@ impl Material<Solid> for Associated {
         let (principal, axes) = principal(&stress_tensor(&predictor));
         let yield_stress = self.curve.at(self.curve.eta(state.kappa)).stress;
         let effective = self.surface.principal_effective_stress(&principal);
-        if effective <= yield_stress * (1.0 + YIELD_TOLERANCE) {
+        let elastic = (yield_stress * (1.0 + YIELD_TOLERANCE)).max(NOTHING * self.curve.strength());
+        if effective <= elastic {
             state.write(trial);
             return Ok(Response {
                 stress: predictor,
@@ -172,7 +177,10 @@ impl Material<Solid> for Associated {
         state.kappa = point.kappa;
         state.write(trial);
         let tangent = if ctx.operator == Operator::Tangent {
-            self.tangent(&axes, &principal, &projected, point.hardening_modulus())
+            let hardening = point.hardening_modulus();
+            let tangent = self.tangent(&axes, &principal, &projected, hardening);
+            is_number(LAW, &tangent)?;
+            tangent
         } else {
             self.elastic.stiffness
         };
