@@ -122,7 +122,9 @@ impl FixedCrack {
                 d[(row, row)] = if gap.abs() > 1e-9 * e.amax() {
                     (local[i] - local[j]) / (2.0 * gap)
                 } else {
-                    0.5 * d[(i, i)].midpoint(d[(j, j)])
+                    // Its limit for equal strains.
+                    let [a, b] = [(i, j), (j, i)].map(|(i, j)| d[(i, i)] - d[(i, j)]);
+                    0.5 * a.midpoint(b)
                 };
             }
         }

@@ -1,9 +1,10 @@
 //! Protects the directions of cracks: what turns, and what is fixed when.
 
+use fe_core::material::{Material, PointContext};
 use nalgebra::Vector6;
 
-use super::{Point, axial, build, law, parameters};
-use crate::fixed_crack::FixedCrackParameters;
+use super::{Point, WIDTH, axial, build, law, parameters};
+use crate::fixed_crack::{Confinement, FixedCrackParameters};
 
 /// Shear in the plane of a crack opens a second one at 45 degrees to the first axes, at ft, which the stress there
 /// never exceeds. Axes fixed by the first crack alone would carry any shear in its plane.
@@ -91,5 +92,32 @@ fn axes_are_fixed_where_the_order_of_stresses_would_turn() {
         // Fixed cracks resist shear by the elastic modulus for a start, others as far as stresses differ.
         let coaxial = 0.05 * (s[0] - s[1]) / (2.0 - along);
         assert_eq!((s[3] / coaxial - 1.0).abs() < 1e-6, !fixed, "{along}");
+    }
+}
+
+/// Where the plane of a crack is compressed alike all around, the modulus that turns its axes is the limit of the one nearby: half
+/// the secant, though the history grows with one of the strains only.
+#[test]
+fn equal_strains_turn_with_the_modulus_of_their_neighbours() {
+    for confinement in [Confinement::None, Confinement::Vecchio] {
+        let mut point = Point::new(build(FixedCrackParameters {
+            confinement,
+            ..parameters()
+        }));
+        point.stress(axial(3e-4));
+        let at = |gamma| Vector6::new(3e-4, -1e-3, -1e-3, 0.0, gamma, 0.0);
+        let mut trial = vec![0.0; point.state.len()];
+        let ctx = PointContext::new(WIDTH);
+        let answer = point
+            .law
+            .update(&at(0.0), &point.state, &mut trial, &ctx)
+            .unwrap();
+        let [up, down] = [1e-9, -1e-9].map(|gamma| point.clone().stress(at(gamma))[4]);
+        let (given, difference) = (answer.tangent[(4, 4)], (up - down) / 2e-9);
+        assert!(
+            (given / difference - 1.0).abs() < 1e-6,
+            "{given}, {difference}"
+        );
+        assert!((given / (-500.0 * answer.stress[1]) - 1.0).abs() < 1e-9);
     }
 }

@@ -154,3 +154,64 @@ fn confinement_slows_the_history_down() {
     let released = point.stress(strain(1.2 * peak, 0.0))[0];
     assert!((released / alone - 1.0).abs() < 0.05, "{released}, {alone}");
 }
+
+/// Work (N mm/mm3) of going from corner to corner in straight lines, from zero, at every corner; strains along the axes in per
+/// mille.
+fn works(point: &mut Point, corners: &[[f64; 3]]) -> Vec<f64> {
+    let (mut work, mut strain, mut stress) = (0.0, Vector6::zeros(), Vector6::zeros());
+    let mut at = Vec::new();
+    for &[x, y, z] in corners {
+        let from = strain;
+        let to = 1e-3 * Vector6::new(x, y, z, 0.0, 0.0, 0.0);
+        for i in 1..=200 {
+            let next = from + (to - from) * (f64::from(i) / 200.0);
+            let found = point.stress(next);
+            work += 0.5 * (stress + found).dot(&(next - strain));
+            (strain, stress) = (next, found);
+        }
+        at.push(work);
+    }
+    at
+}
+
+/// What the documentation says the sound law gives away: 4 % of the work of loading with every round of a loop, as much taken the
+/// other way round, and, at the onset, no more than ft^2/(2E) beyond what loading took.
+#[test]
+fn energy_of_loops_and_of_the_onset() {
+    let (along, wide, end) = ([0.0, -2.0, 0.0], [0.3, -2.5, 0.3], [0.0; 3]);
+    for (corners, gives) in [([along, wide, end], 1.0), ([wide, along, end], -1.0)] {
+        let mut point = Point::new(law(0.2));
+        // The histories have grown once all corners have been seen.
+        let work = works(&mut point, &corners.repeat(2));
+        assert_eq!(point.state[0], 0.0);
+        let loading = work.iter().copied().fold(0.0, f64::max);
+        let round = (work[2] - work[5]) / loading;
+        assert!((gives * round - 0.037).abs() < 0.005, "{round}");
+    }
+    let p = parameters();
+    let unit = p.ft_mpa * p.ft_mpa / (2.0 * p.young_mpa);
+    let mut point = Point::new(law(0.2));
+    let mut most = 0.0_f64;
+    for size in (0..200).map(|i| 0.001 * f64::from(i)) {
+        point.state.fill(0.0);
+        let work = works(&mut point, &[[size, 0.7 * size, -2.5 * size], end])[1];
+        if point.state[0] > 0.0 {
+            most = most.max(-work / unit);
+        }
+    }
+    assert!((0.9..1.1).contains(&most), "{most}");
+}
+
+/// Two principal strains that pass one another: the stresses of the two axes change places.
+#[test]
+fn histories_go_by_rank() {
+    let mut point = Point::new(law(0.2));
+    point.stress(1e-3 * Vector6::new(-1.0, -3.0, -4.0, 0.0, 0.0, 0.0));
+    let [before, after] = [1e-9, -1e-9].map(|d| {
+        let strain = 1e-3 * Vector6::new(-1.0, -1.5 + d, -1.5 - d, 0.0, 0.0, 0.0);
+        point.clone().stress(strain)
+    });
+    assert!((before[1] / before[2] - 1.0).abs() > 0.1);
+    let apart = (before[1] - after[2]).abs() + (before[2] - after[1]).abs();
+    assert!(apart < 1e-6 * before.amax(), "{before}, {after}");
+}
