@@ -84,7 +84,7 @@ impl BondSlip {
     /// # Errors
     ///
     /// [`ElementError::Input`] for a diameter or stiffness that is not positive, [`ElementError::Jacobian`] for a bar
-    /// without length, [`ElementError::NoHost`] where a point of the bar lies outside the host,
+    /// without length or whose middle node lies nearer to an end than a quarter, [`ElementError::NoHost`] where a point of the bar lies outside the host,
     /// [`ElementError::Material`] when the law refuses the point.
     pub fn new(
         nodes: [NodeId; NODES],
@@ -104,6 +104,9 @@ impl BondSlip {
                     remedy: "give a positive number".into(),
                 });
             }
+        }
+        if let Some((point, determinant)) = line3::turns_back(coords) {
+            return Err(ElementError::Jacobian { point, determinant });
         }
         let chord = Vector3::from(coords[1]) - Vector3::from(coords[0]);
         let mut points = Vec::new();

@@ -113,6 +113,12 @@ fn bars_outside_and_impossible_numbers_are_refused() {
         new(point, &bar()),
         Err(ElementError::Jacobian { .. })
     ));
+    // The middle node at a tenth of the length, whose end turns back, and at no place at all.
+    let near = std::array::from_fn(|k| BAR[0][k] + 0.1 * (BAR[1][k] - BAR[0][k]));
+    for middle in [near, [f64::INFINITY; 3]] {
+        let refused = new([BAR[0], BAR[1], middle], &bar());
+        assert!(matches!(refused, Err(ElementError::Jacobian { .. })));
+    }
     let thin = BondSlipBar {
         diameter_mm: 0.0,
         ..bar()

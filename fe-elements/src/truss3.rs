@@ -44,8 +44,8 @@ impl Truss3 {
     ///
     /// # Errors
     ///
-    /// [`ElementError::Input`] for an area that is not positive, [`ElementError::Jacobian`] for a bar without length,
-    /// [`ElementError::Material`] when the law refuses the point.
+    /// [`ElementError::Input`] for an area that is not positive, [`ElementError::Jacobian`] for a bar without length or whose
+    /// middle node lies nearer to an end than a quarter, [`ElementError::Material`] when the law refuses the point.
     pub fn new(
         nodes: [NodeId; 3],
         coords: &[[f64; 3]; 3],
@@ -53,6 +53,9 @@ impl Truss3 {
         law: Arc<dyn Material<Axial>>,
     ) -> Result<Self, ElementError> {
         positive("area_mm2", area_mm2, "give a positive area")?;
+        if let Some((point, determinant)) = line3::turns_back(coords) {
+            return Err(ElementError::Jacobian { point, determinant });
+        }
         let mut points = Vec::new();
         let mut length = 0.0;
         for (point, (xi, w)) in quadrature::gauss_legendre(2).into_iter().enumerate() {
@@ -172,5 +175,36 @@ impl Element for Truss3 {
                 visit(half, s.stress[0]);
             }
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Protects bars from places that make none.
+    use super::*;
+    use fe_materials::Elastic;
+
+    /// A middle node beyond a quarter turns an end back; one at infinity, or coincident ends, are no bar.
+    #[test]
+    fn impossible_bars_are_refused() {
+        let build = |first, last, middle, area| {
+            let law = Arc::new(Elastic::new(200e3, 0.0).unwrap());
+            Truss3::new([0, 1, 2], &[first, last, middle], area, law)
+        };
+        let (first, last, middle) = ([0.0; 3], [8.0, 0.0, 0.0], [4.0, 1.0, 0.0]);
+        assert!(build(first, last, middle, 1.0).is_ok());
+        for (last, middle) in [
+            (last, [1.5, 0.0, 0.0]),
+            (last, [4.0, f64::INFINITY, 0.0]),
+            (last, [f64::NAN, 0.0, 0.0]),
+            (first, first),
+        ] {
+            let error = build(first, last, middle, 1.0).unwrap_err();
+            assert!(matches!(error, ElementError::Jacobian { .. }), "{error}");
+        }
+        for area in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let error = build(first, last, middle, area).unwrap_err();
+            assert!(error.to_string().contains("area_mm2"), "{error}");
+        }
     }
 }

@@ -30,7 +30,8 @@ const LAW: &str = "isochoric Ottosen plasticity";
 /// $$ F(\mathrm{neg}(p 1 + \rho s_{tr})) = \bar s(\kappa_n + \Delta\lambda), $$
 ///
 /// solved for eta = eps/eps_c1 of the curve, where it has no infinite slope; rho from 1 to 0 brackets a
-/// root, so the return cannot fail. Consistent tangent, with N = dF(neg)/dsigma, H = dsbar/dkappa and
+/// root, so the return cannot fail. There may be three: where a small pressure across, which strengthens, goes on the way, or
+/// where the curve falls under high pressure. The stress then jumps where strains pass from one root to another. Consistent tangent, with N = dF(neg)/dsigma, H = dsbar/dkappa and
 /// c = 3G dlam/q_tr:
 ///
 /// $$ D_{ep} = M - \frac{3G}{q_{tr}}

@@ -44,7 +44,8 @@ const NOTHING: f64 = 1e-50;
 /// angle it comes from scalar equations with brackets, without a singularity on the meridians or at the apex on
 /// the tensile hydrostatic axis. The apex is the closest point if and only if the trial deviator lies in the
 /// cone of its normals, tested first. dlam(sbar(eta)) = kappa(eta) - kappa_n, with eta = eps/eps_c1 of the
-/// curve, is then one more equation with a bracket: the return cannot fail.
+/// curve, is then one more equation with a bracket: the return cannot fail. Where the curve falls under high pressure there may
+/// be three roots, and the stress jumps where strains pass from one to another.
 ///
 /// **Consistent tangent** in those axes, with a = dF/dsigma, H = dsbar/dkappa and
 /// Q = (C + dlam d2F/dsigma2)^-1: Q - (Q a)(Q a)/(a Q a + H) for the principal strains, and
