@@ -13,7 +13,11 @@ use crate::input::positive;
 /// direction n in the plane of the bar and the crack.
 ///
 /// Where |V| would pass its strength V_u(sigma), which falls with the axial stress, the bar slides and gamma_p follows. A bar
-/// that yields along its axis has no strength left across it.
+/// that yields along its axis has no strength left across it: from 1 - (sigma/fy)^2 = 1e-6 on V_u is 0, where it has fallen to a
+/// thousandth of V_0, and its slope has grown to 1000 V_0/fy.
+///
+/// gamma_p does not depend on rate, no more than plastic strain along the bar does: the
+/// [relaxation](fe_core::element::EvaluationContext::relaxation) of an evaluation has no influence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dowel {
     /// V per unit of shear strain (N).
