@@ -84,6 +84,18 @@ impl Laminate {
             .map(move |ply| (ply.lamina.stiffness() * (transform(ply.angle_deg) * strain))[0])
     }
 
+    /// What the fibres carry along axis 2 per length along axis 1 (N/mm) at a membrane strain in the axes of the laminate:
+    /// the sum of t_k sigma_k sin^2(angle_k) over the plies of fibre stress sigma_k. What holds the fibres together is not
+    /// counted. Round a beam whose axis is axis 1, this is the tension that a strip takes from a shear crack.
+    pub fn fibre_force_along_2(&self, strain: &Vector3<f64>) -> f64 {
+        let share = |ply: &Ply| ply.thickness_mm * ply.angle_deg.to_radians().sin().powi(2);
+        let shares = self.plies.iter().map(share);
+        self.fibre_stresses(strain)
+            .zip(shares)
+            .map(|(stress, share)| stress * share)
+            .sum()
+    }
+
     /// Mean stress (MPa) per strain along an angle (degrees) from axis 1, all other strains being zero.
     pub fn stiffness_along(&self, angle_deg: f64) -> f64 {
         let (s, c) = angle_deg.to_radians().sin_cos();
@@ -195,6 +207,20 @@ mod tests {
         let stresses: Vec<f64> = law.fibre_stresses(&strain).collect();
         assert_relative_eq!(stresses[0], q[(0, 1)] * 5e-3, max_relative = 1e-9);
         assert_relative_eq!(stresses[1], q[(0, 0)] * 5e-3, max_relative = 1e-14);
+    }
+
+    /// A strain that stretches all fibres alike, 5 per mille in every direction: those at 90 degrees count in full along axis 2,
+    /// those at 45 by half, those along axis 1 not at all.
+    #[test]
+    fn fibres_carry_by_their_angle() {
+        let law = stack(&[90.0, 45.0, 0.0]);
+        let strain = Vector3::new(5e-3, 5e-3, 0.0);
+        let ply = 0.165 * law.fibre_stresses(&strain).next().unwrap();
+        assert_relative_eq!(
+            law.fibre_force_along_2(&strain),
+            1.5 * ply,
+            max_relative = 1e-12
+        );
     }
 
     /// Plies at 0, 45, 90 and 135 degrees are isotropic in the plane: A66 = (A11 - A12)/2, no coupling.

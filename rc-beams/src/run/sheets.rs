@@ -3,7 +3,6 @@
 use fe_contact::SlipDamage;
 use fe_core::model::{Model, ModelError};
 use fe_core::state::StateStore;
-use fe_materials::Ply;
 use nalgebra::Vector3;
 
 use crate::build::{BarKind, Beam, SheetRecord};
@@ -36,11 +35,6 @@ pub(super) fn layout(beam: &Beam, layout: &Layout) -> SheetLayout {
     }
 }
 
-/// Thickness (mm) of a ply times sin^2 of the angle of its fibres to the beam: what of their stress goes round the section.
-fn round_section(ply: &Ply) -> f64 {
-    ply.thickness_mm * ply.angle_deg.to_radians().sin().powi(2)
-}
-
 /// Points of sheets and interfaces.
 pub(super) fn state(
     sheets: &SheetRecord,
@@ -55,18 +49,17 @@ pub(super) fn state(
             spec::Face::Soffit => Face::Soffit,
             spec::Face::Top => Face::Top,
         };
-        let round: Vec<f64> = cell.laminate.plies().iter().map(round_section).collect();
         let thickness = cell.laminate.thickness_mm();
         model.sample(cell.membrane, u, state, &mut |s| {
             let strain = Vector3::from_column_slice(s.strain);
-            let stresses = || cell.laminate.fibre_stresses(&strain);
+            let stresses = cell.laminate.fibre_stresses(&strain);
             seen.sheet.push(SheetPoint {
                 position: s.position,
                 zone: cell.zone,
                 face,
                 area_mm2: s.volume / thickness,
-                hoop_n_per_mm: stresses().zip(&round).map(|(s, t)| s * t).sum(),
-                fibre_stress_mpa: stresses().fold(f64::NEG_INFINITY, f64::max),
+                hoop_n_per_mm: cell.laminate.fibre_force_along_2(&strain),
+                fibre_stress_mpa: stresses.fold(f64::NEG_INFINITY, f64::max),
                 utilisation: s.report.utilisation,
             });
         })?;

@@ -59,8 +59,8 @@ pub struct SheetPoint {
     pub face: Face,
     /// Area it stands for (mm2).
     pub area_mm2: f64,
-    /// What the fibres carry round the section per length along the beam (N/mm): the sum of t sigma sin^2(angle) over the
-    /// plies, of thickness t and fibre stress sigma, at an angle to the beam.
+    /// What the fibres carry round the section per length along the beam (N/mm), see
+    /// [`Laminate::fibre_force_along_2`](fe_materials::Laminate::fibre_force_along_2).
     pub hoop_n_per_mm: f64,
     /// Stress along the fibres, that of the ply where it is largest, tension positive (MPa).
     pub fibre_stress_mpa: f64,
