@@ -1,4 +1,4 @@
-//! A cohesive law as text: plain data for any format that serde reads.
+//! A cohesive law as text, without viscosity: plain data for any format that serde reads.
 
 use fe_core::kinematics::Interface;
 use fe_core::material::{Material, MaterialError};
@@ -10,7 +10,7 @@ use crate::envelope::{
 };
 use crate::{BondSettings, MixedMode, MixedModeParameters, SlipDamage};
 
-/// A law of this crate with its parameters; units in the names of the fields.
+/// A law of this crate with its parameters, but for [`Viscous`](crate::Viscous); units in the names of the fields.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum BondCase {

@@ -10,7 +10,7 @@
 //!   [`envelope`]; [`PullOut`] is the closed form of what it does to a strip.
 //! - [`MixedMode`] is the law of delamination in opening and shear.
 //! - [`Viscous`] gives a law artificial viscosity, and counts what it costs.
-//! - [`case::BondCase`] is any of them as text.
+//! - [`case::BondCase`] is one of the first two as text.
 //! - [`Interface16`] is the element between two 8-node faces, [`BondSlip`] the one between a bar and the
 //!   hexahedra around it.
 //!
