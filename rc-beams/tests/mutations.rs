@@ -99,6 +99,7 @@ impl Sober {
         assert!(
             all.iter()
                 .chain(&reading.reactions_kn)
+                .chain(&reading.loads_kn)
                 .all(|v| v.is_finite())
         );
     }

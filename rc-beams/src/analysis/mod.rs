@@ -86,6 +86,8 @@ pub struct Reading {
     pub work_conjugate_load_kn: f64,
     /// Support reactions of the whole width, self weight included (kN).
     pub reactions_kn: Vec<f64>,
+    /// Force of each load of the whole width, down positive (kN); none act under self weight.
+    pub loads_kn: Vec<f64>,
     /// Largest force by which a support holds the beam down or a load pulls it up, over all loads.
     pub backward: f64,
 }

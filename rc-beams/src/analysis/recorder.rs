@@ -46,6 +46,7 @@ fn read(beam: &Beam, view: &StepView<'_>, origin: &Origin) -> Reading {
         load_kn,
         work_conjugate_load_kn: load_kn * ratio,
         reactions_kn: reactions.iter().map(|r| 2.0 * r / 1e3).collect(),
+        loads_kn: loads.iter().map(|up| -2.0 * up / 1e3).collect(),
     }
 }
 
@@ -70,7 +71,9 @@ impl Recorder for WeightRecorder<'_> {
             reactions: self.beam.measures.reactions(|d| stage.reaction(d)),
             displacement: stage.displacement()[self.beam.measures.deflection],
         };
-        let reading = read(self.beam, view, self.origin);
+        let mut reading = read(self.beam, view, self.origin);
+        // What is left there is residual: nothing holds the beam where it will be loaded.
+        reading.loads_kn.fill(0.0);
         self.observer.weight(view, &reading)?;
         Ok(Continue::Yes)
     }

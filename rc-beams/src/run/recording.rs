@@ -49,11 +49,12 @@ impl<'a> Recording<'a> {
         plan: (f64, f64),
         interrupt: &'a Interrupt,
     ) -> Result<Self, ResultsError> {
-        let supports: Vec<String> = beam
-            .measures
-            .supports
-            .iter()
-            .map(|s| format!("reaction_x{}_kn", s.x))
+        let measures = &beam.measures;
+        let reactions = measures.supports.iter().map(|s| ("reaction", s.x));
+        let loads = measures.loads.iter().map(|l| ("load", l.x));
+        let forces: Vec<String> = reactions
+            .chain(loads)
+            .map(|(what, x)| format!("{what}_x{x}_kn"))
             .collect();
         let gauges: Vec<String> = beam.gauges.iter().map(|g| g.name.clone()).collect();
         // The fields of single states are written in the end; until then those of an earlier run stay.
@@ -66,7 +67,7 @@ impl<'a> Recording<'a> {
             folder: folder.clone(),
             resuming: checkpoint.records() > 0,
             checkpoint,
-            history: History::create(folder, &supports, &gauges)?,
+            history: History::create(folder, &forces, &gauges)?,
             gauges: beam.gauges.clone(),
             watch: Watch::start(beam, layout, folder)?,
             fields,
@@ -128,6 +129,7 @@ impl<'a> Recording<'a> {
             load_kn: reading.load_kn,
             p_star_kn: (step > 0).then_some(reading.work_conjugate_load_kn),
             reactions_kn: reading.reactions_kn.clone(),
+            loads_kn: reading.loads_kn.clone(),
             negative_pivots: view.negative_pivots,
             critical: view.critical,
             residual: view.residual,

@@ -23,6 +23,8 @@ pub struct StepRow {
     pub p_star_kn: Option<f64>,
     /// Vertical reaction of each support, from left to right (kN).
     pub reactions_kn: Vec<f64>,
+    /// Force of each load, down positive, from left to right (kN).
+    pub loads_kn: Vec<f64>,
     /// Negative pivots of the tangent, where they were counted; they are not at every step while there are some.
     pub negative_pivots: Option<usize>,
     /// Critical point passed on the way.
@@ -59,7 +61,8 @@ impl StepRow {
             number(self.load_kn),
             self.p_star_kn.map_or_else(String::new, number),
         ];
-        cells.extend(self.reactions_kn.iter().copied().map(number));
+        let forces = self.reactions_kn.iter().chain(&self.loads_kn);
+        cells.extend(forces.copied().map(number));
         cells.extend([
             self.negative_pivots
                 .map_or_else(String::new, |n| n.to_string()),
@@ -80,7 +83,7 @@ impl StepRow {
     }
 }
 
-/// Columns of `history.csv` before and after the reactions.
+/// Columns of `history.csv` before and after the forces of supports and loads.
 const STEP_COLUMNS: ([&str; 4], [&str; 13]) = (
     ["step", "deflection_mm", "load_kn", "p_star_kn"],
     [
@@ -123,19 +126,19 @@ pub struct History {
 }
 
 impl History {
-    /// Starts the tables. `supports` and `gauges` name the columns of reactions and gauges, with units.
+    /// Starts the tables. `forces` and `gauges` name the columns of reactions, then loads, and of gauges, with units.
     ///
     /// # Errors
     ///
     /// [`ResultsError::Output`].
     pub fn create(
         folder: &Folder,
-        supports: &[String],
+        forces: &[String],
         gauges: &[String],
     ) -> Result<Self, ResultsError> {
         let (before, after) = STEP_COLUMNS;
-        let reactions = supports.iter().map(String::as_str);
-        let steps = before.into_iter().chain(reactions).chain(after);
+        let forces = forces.iter().map(String::as_str);
+        let steps = before.into_iter().chain(forces).chain(after);
         let readings = gauges.iter().map(String::as_str);
         let gauges = GAUGE_COLUMNS.into_iter().chain(readings);
         Ok(Self {
@@ -166,7 +169,7 @@ impl History {
     ///
     /// # Errors
     ///
-    /// [`ResultsError::Output`], also when reactions or readings do not match the columns.
+    /// [`ResultsError::Output`], also when forces or readings do not match the columns.
     pub fn step(&mut self, row: &StepRow, readings: &[f64]) -> Result<(), ResultsError> {
         self.steps.row(row.cells())?;
         let measured = [row.deflection_mm, row.load_kn];
@@ -211,6 +214,7 @@ mod tests {
             load_kn,
             deflection_mm: 0.1 * step as f64,
             reactions_kn: vec![0.5 * load_kn; 2],
+            loads_kn: vec![load_kn],
             residual: 5e-4,
             criterion: 1e-3,
             iterations: 3,
@@ -221,11 +225,8 @@ mod tests {
     }
 
     fn history(folder: &Folder) -> History {
-        let supports = [
-            "reaction_x610_kn".to_owned(),
-            "reaction_x2440_kn".to_owned(),
-        ];
-        History::create(folder, &supports, &["stirrup_x1650_strain".to_owned()]).unwrap()
+        let forces = ["reaction_x610_kn", "reaction_x2440_kn", "load_x1525_kn"].map(str::to_owned);
+        History::create(folder, &forces, &["stirrup_x1650_strain".to_owned()]).unwrap()
     }
 
     #[test]
@@ -254,11 +255,11 @@ mod tests {
         };
         history.step(&step, &[1.5e-5]).unwrap();
 
-        let expected = "step,deflection_mm,load_kn,p_star_kn,reaction_x610_kn,reaction_x2440_kn,\
+        let expected = "step,deflection_mm,load_kn,p_star_kn,reaction_x610_kn,reaction_x2440_kn,load_x1525_kn,\
                         negative_pivots,critical,residual,criterion,iterations,attempts,held,flagged,step_mm,kinetic_share,\
                         viscous_share,factorisations,force_evaluations\n\
-                        0,0,0,,0,0,0,,0.0005,0.001,3,1,0,0,0,,,0,0\n\
-                        1,0.1,20,20.25,10,10,,,0.0005,0.001,3,1,0,0,0,,,0,0\n";
+                        0,0,0,,0,0,0,0,,0.0005,0.001,3,1,0,0,0,,,0,0\n\
+                        1,0.1,20,20.25,10,10,20,,,0.0005,0.001,3,1,0,0,0,,,0,0\n";
         assert_eq!(read("history.csv"), expected);
         assert_eq!(
             read("gauges.csv"),
