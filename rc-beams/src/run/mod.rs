@@ -306,6 +306,7 @@ fn run(
             (beam, record),
             watch.sheet_layout(),
             states,
+            (figures.peak_load_kn, figures.deflection_at_peak_mm),
         )?;
     }
     wall.output += drawing.elapsed().as_secs_f64();

@@ -89,13 +89,14 @@ pub(super) fn crack(
     view.save_svg(folder, "crack")
 }
 
-/// `sheet_map.csv`, and from it `slip.svg` and `sheet.svg` at the peak.
+/// `sheet_map.csv`, and from it `slip.svg` and `sheet.svg` at the peak (kN, mm).
 pub(super) fn sheets(
     folder: &Folder,
     specimen: &Specimen,
     (beam, record): (&Beam, &SheetRecord),
     layout: &SheetLayout,
     states: [(MapState, &State); 2],
+    (load_kn, deflection_mm): (f64, f64),
 ) -> Result<(), RunError> {
     let mut rows = Vec::new();
     for (name, at) in states {
@@ -103,12 +104,12 @@ pub(super) fn sheets(
         rows.extend(MapRow::of(name, layout, &seen));
     }
     write_map(folder, &rows)?;
-    let title = format!("at the peak, {:.2} mm", states[0].1.deflection_mm);
     let places = |lines: &[Line]| lines.iter().map(|l| [l.x, l.y]).collect::<Vec<_>>();
     for shown in [Shown::Slip, Shown::FibreStress] {
-        if shown == Shown::Slip && record.interfaces.is_empty() {
+        if !shown.is_in(&rows) {
             continue;
         }
+        let title = shown.title(load_kn, deflection_mm);
         let view = SheetView {
             specimen: &specimen.name,
             title: &title,

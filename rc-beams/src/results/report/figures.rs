@@ -69,7 +69,7 @@ pub(super) fn groups(folder: &Folder, beams: &[Stored]) -> Result<Vec<Group>, Re
 pub(super) fn sheets(path: &Path, beam: &Stored) -> Result<(), ReportError> {
     for shown in [Shown::Slip, Shown::FibreStress] {
         let file = format!("{}.svg", shown.file());
-        if beam.map.is_empty() || super::exists(&path.join(file)) {
+        if !shown.is_in(&beam.map) || super::exists(&path.join(file)) {
             continue;
         }
         let summary = &beam.summary;

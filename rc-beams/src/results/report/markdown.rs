@@ -204,8 +204,9 @@ fn sheets(beams: &[Stored]) -> String {
         text += "\n## Sheets of the test span\n\n";
         text += &table(&header, rows);
     }
-    for beam in beams.iter().filter(|b| !b.map.is_empty()) {
-        for shown in [Shown::Slip, Shown::FibreStress] {
+    for beam in beams {
+        let shown = [Shown::Slip, Shown::FibreStress].into_iter();
+        for shown in shown.filter(|shown| shown.is_in(&beam.map)) {
             let (name, file) = (&beam.name, shown.file());
             let _ = write!(text, "\n![{file} at the peak, {name}]({name}/{file}.svg)\n");
         }

@@ -151,11 +151,7 @@ pub(super) fn read(folder: &Path) -> (Option<Stored>, Vec<String>) {
     });
     match gauges {
         Err(what) => wrong.push(what),
-        Ok(()) if gauged != beam.path.len() => wrong.push(format!(
-            "gauges.csv has {gauged} rows for {} of history.csv",
-            beam.path.len()
-        )),
-        Ok(()) => {}
+        Ok(()) => wrong.extend(unlike("gauges.csv", gauged, &beam.path)),
     }
     wrong.extend(rows(folder, "newton.csv", &mut |_| Ok(())).err());
     let events = rows(folder, "events.csv", &mut |row| {
@@ -173,7 +169,10 @@ pub(super) fn read(folder: &Path) -> (Option<Stored>, Vec<String>) {
     }
     if has("sheets.csv") {
         match sheets(folder, peak) {
-            Ok(found) => beam.sheets = Some(found),
+            Ok((found, rows)) => {
+                beam.sheets = Some(found);
+                wrong.extend(unlike("sheets.csv", rows, &beam.path));
+            }
             Err(what) => wrong.push(what),
         }
     }
@@ -185,6 +184,12 @@ pub(super) fn read(folder: &Path) -> (Option<Stored>, Vec<String>) {
         }
     }
     (Some(beam), wrong)
+}
+
+/// What is said of a table that has not as many rows as the history.
+fn unlike(file: &str, rows: usize, path: &[[f64; 2]]) -> Option<String> {
+    let steps = path.len();
+    (rows != steps).then(|| format!("{file} has {rows} rows for {steps} of history.csv"))
 }
 
 fn summary(folder: &Path) -> Result<StoredSummary, String> {
@@ -264,7 +269,14 @@ fn rows(
     if !exists(&path) {
         return Err(format!("{file} is missing"));
     }
-    let mut reader = Reader::from_path(path).map_err(|e| format!("{file}: {e}"))?;
+    let text = fs::read(path).map_err(|e| format!("{file}: {e}"))?;
+    if text.last().is_some_and(|end| *end != b'\n') {
+        let line = text.split(|b| *b == b'\n').count();
+        return Err(format!(
+            "{file}, line {line}: the line has no end, the table was cut"
+        ));
+    }
+    let mut reader = Reader::from_reader(text.as_slice());
     let header = reader
         .headers()
         .map_err(|e| format!("{file}: {e}"))?
@@ -302,9 +314,9 @@ fn event(row: &Row<'_>) -> Result<StoredEvent, Box<dyn Error>> {
     })
 }
 
-/// Rows at the peak and at the end.
-fn sheets(folder: &Path, peak: [f64; 2]) -> Result<[StoredSheets; 2], String> {
-    let (mut at_peak, mut last) = (None, None);
+/// Rows at the peak and at the end, and how many there are.
+fn sheets(folder: &Path, peak: [f64; 2]) -> Result<([StoredSheets; 2], usize), String> {
+    let (mut at_peak, mut last, mut count) = (None, None, 0);
     rows(folder, "sheets.csv", &mut |row| {
         let read = StoredSheets {
             load_kn: row.number("load_kn")?,
@@ -316,10 +328,11 @@ fn sheets(folder: &Path, peak: [f64; 2]) -> Result<[StoredSheets; 2], String> {
             at_peak = Some(read);
         }
         last = Some(read);
+        count += 1;
         Ok(())
     })?;
     at_peak
         .zip(last)
-        .map(<[StoredSheets; 2]>::from)
+        .map(|found| (found.into(), count))
         .ok_or_else(|| "sheets.csv does not hold the peak of summary.json".to_owned())
 }

@@ -255,12 +255,50 @@ fn store_sheets(root: &Path) {
         });
     }
     let folder = Folder::open(&root.join("A-SO3-2")).unwrap();
-    write_map(&folder, &MapRow::of(MapState::Peak, &layout, &state)).unwrap();
+    let rows = [MapState::Peak, MapState::End].map(|at| MapRow::of(at, &layout, &state));
+    write_map(&folder, &rows.concat()).unwrap();
     let sheets = "step,deflection_mm,load_kn,utilisation,left_stress_mpa,left_force_kn,left_debonded,\
                   test_span_stress_mpa,test_span_force_kn,test_span_debonded,strip_9_debonded\n\
-                  1,1,110,0.1,999,99,,10,1,0,0\n2,2,220,0.3,999,99,,1234.4,85.05,0.04,0\n\
+                  0,0,0,0,0,0,,0,0,,0\n1,1,110,0.1,999,99,,10,1,0,0\n2,2,220,0.3,999,99,,1234.4,85.05,0.04,0\n\
                   3,3,176,0.3,999,99,,600,42,0.48,1\n";
     fs::write(root.join("A-SO3-2/sheets.csv"), sheets).unwrap();
+}
+
+/// Target: wherever a table of sheets is cut, that is told, once; what is left of others is reported.
+#[test]
+fn tables_of_sheets_that_were_cut_are_told() {
+    let root = results();
+    store_sheets(root.path());
+    for file in ["sheets.csv", MAP] {
+        let path = root.path().join("A-SO3-2").join(file);
+        let whole = fs::read_to_string(&path).unwrap();
+        let header = whole.find('\n').unwrap();
+        for cut in header + 1..whole.len() - 1 {
+            fs::write(&path, &whole[..cut]).unwrap();
+            let problems = write(root.path()).unwrap().problems;
+            let told = matches!(&problems[..], [one] if one.contains(file));
+            assert!(told, "{file} {:?}: {problems:?}", &whole[..cut]);
+        }
+        fs::write(&path, &whole).unwrap();
+        assert_eq!(write(root.path()).unwrap().problems, Vec::<String>::new());
+    }
+}
+
+/// Target: with perfect bond there is no slip, and no picture of it is made up.
+#[test]
+fn without_points_of_the_interface_there_is_no_picture_of_slip() {
+    let root = results();
+    store_sheets(root.path());
+    let map = root.path().join("A-SO3-2").join(MAP);
+    let text = fs::read_to_string(&map).unwrap();
+    let sheet = |line: &&str| !line.contains("interface");
+    let perfect: Vec<&str> = text.lines().filter(sheet).collect();
+    fs::write(&map, perfect.join("\n") + "\n").unwrap();
+    assert_eq!(write(root.path()).unwrap().problems, Vec::<String>::new());
+    let folder = root.path().join("A-SO3-2");
+    assert!(folder.join("sheet.svg").exists() && !folder.join("slip.svg").exists());
+    let text = read(&root, "report.md");
+    assert!(text.contains("A-SO3-2/sheet.svg") && !text.contains("slip.svg"));
 }
 
 #[test]

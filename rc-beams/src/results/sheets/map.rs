@@ -89,6 +89,22 @@ impl MapRow {
         });
         sheet.chain(interface).collect()
     }
+
+    /// Whether there is what belongs to its kind.
+    const fn is_complete(&self) -> bool {
+        match self.kind {
+            MapKind::Sheet => self.fibre_stress_mpa.is_some(),
+            MapKind::Interface => {
+                self.slip_mm.is_some() && self.slip_max_mm.is_some() && self.debonded.is_some()
+            }
+        }
+    }
+
+    /// What it is about, whichever the state.
+    fn point(&self) -> (MapKind, Face, &str, [f64; 3]) {
+        let place = [self.x_mm, self.y_mm, self.z_mm];
+        (self.kind, self.face, &self.zone, place)
+    }
 }
 
 /// Writes `sheet_map.csv` as a whole.
@@ -116,6 +132,22 @@ pub enum MapError {
     /// No rows.
     #[error("the table has no rows")]
     Empty,
+    /// A row without a number of its kind.
+    #[error("row {row} of the points lacks a number: the table was cut or changed")]
+    Incomplete {
+        /// Counted from 1, without the header.
+        row: usize,
+    },
+    /// Not every point has both states.
+    #[error(
+        "{peak} points at the peak and {end} at the end are not the same ones: the table was cut or changed"
+    )]
+    Unlike {
+        /// Rows of the peak.
+        peak: usize,
+        /// Rows of the end.
+        end: usize,
+    },
 }
 
 /// Reads the rows of a `sheet_map.csv`.
@@ -129,6 +161,17 @@ pub fn read_map(text: impl Read) -> Result<Vec<MapRow>, MapError> {
         .collect::<Result<_, _>>()?;
     if rows.is_empty() {
         return Err(MapError::Empty);
+    }
+    if let Some(row) = rows.iter().position(|row| !row.is_complete()) {
+        return Err(MapError::Incomplete { row: row + 1 });
+    }
+    let of = |state| rows.iter().filter(move |row| row.state == state);
+    if !of(MapState::Peak)
+        .map(MapRow::point)
+        .eq(of(MapState::End).map(MapRow::point))
+    {
+        let [peak, end] = [MapState::Peak, MapState::End].map(|state| of(state).count());
+        return Err(MapError::Unlike { peak, end });
     }
     Ok(rows)
 }

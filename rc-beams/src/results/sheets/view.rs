@@ -36,6 +36,12 @@ impl Shown {
         format!("{what} at the peak, {load_kn:.1} kN at {deflection_mm:.2} mm")
     }
 
+    /// Whether there are points to show on the side: none have a slip with perfect bond.
+    pub fn is_in(self, rows: &[MapRow]) -> bool {
+        let shown = (self.kind(), Face::Side);
+        rows.iter().any(|row| (row.kind, row.face) == shown)
+    }
+
     const fn label(self) -> &'static str {
         match self {
             Self::Slip => "slip [mm]",
