@@ -2,6 +2,7 @@
 //! line, column, field, allowed range and remedy, a code other than 0, and changes no file.
 
 mod bond;
+mod once;
 mod sheets;
 
 use std::fs;
@@ -297,6 +298,15 @@ const CASES: &[Case] = &[
     ),
     (
         "x_mm: 1680",
+        &[
+            "supports[1].held: holds nothing; allowed: Ux, Uy, or both",
+            "name what it holds, or leave the support out",
+        ],
+    ),
+    (
+        "held: [Uy]",
+        "held: [Ux]",
+        "",
         "x_mm: 1400",
         "1400",
         &[

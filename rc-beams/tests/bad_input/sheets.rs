@@ -8,6 +8,16 @@ const FULL_WRAP: &str = include_str!("../../specimens/B-CF4.ron");
 const STAGED: &str = include_str!("../../specimens/examples/A-SO3-4-staged.ron");
 
 const ON_STRIPS: &[Case] = &[
+    // Stronger than the formulas of the bond serve.
+    (
+        "reported_strength_mpa: 27.5",
+        "reported_strength_mpa: 61",
+        "61",
+        &[
+            "concrete.reported_strength_mpa: 61 MPa, with sheets",
+            "allowed: 16 to 60 MPa",
+        ],
+    ),
     // Strips that overlap; in another order; outside the beam.
     (
         "x_from_mm: 807.5",

@@ -50,7 +50,8 @@ fn overlap(a: (f64, f64), b: (f64, f64)) -> bool {
 }
 
 impl Checks<'_> {
-    pub(super) fn sheets(&mut self) {
+    /// Of a beam known to be `supported` as it may, sheets are clear of the plates.
+    pub(super) fn sheets(&mut self, supported: bool) {
         let specimen = self.specimen;
         let mut patches = Vec::new();
         if let Some(sheets) = &specimen.sheets {
@@ -76,6 +77,9 @@ impl Checks<'_> {
                 }
             }
             self.covered_once(&patches);
+            if supported {
+                self.clear_of_plates(&sheets.wraps);
+            }
         } else if specimen.staged.is_some() {
             self.report(
                 "staged",
@@ -119,7 +123,6 @@ impl Checks<'_> {
             let right = ("right end of the stretch", to);
             self.within(format!("{path}.x_to_mm"), right, 0.0..=length, ALONG);
             self.ascending(format!("{path}.x_to_mm"), from, to);
-            self.clear_of_plates(&path, (from, to), faces);
             least = to + GAP;
         }
         for (i, cover) in faces.iter().enumerate() {
@@ -127,20 +130,29 @@ impl Checks<'_> {
         }
     }
 
-    /// No sheet lies between a plate, or a stub, and the face it stands on.
-    fn clear_of_plates(&mut self, path: &str, sheet: (f64, f64), faces: &[Cover]) {
+    /// No sheet lies between a plate, or a stub, and the face it stands on. A plate and a stretch are told once each.
+    fn clear_of_plates(&mut self, wraps: &[Wrap]) {
         let specimen = self.specimen;
         let below = specimen.supports.iter();
         let below = below.map(|s| (Face::Soffit, "support", s.x_mm, &s.plate));
         let above = specimen.loads.iter();
         let above = above.map(|load| (Face::Top, "load", load.x_mm, &load.plate));
-        for (face, what, centre, plate) in below.chain(above) {
-            let half = 0.5 * plate.length_mm.get();
-            let (left, right) = (centre.get() - half, centre.get() + half);
-            if faces.iter().any(|cover| cover.face == face) && overlap(sheet, (left, right)) {
-                let (from, to) = sheet;
+        let mut plates: Vec<_> = below.chain(above).collect();
+        for (i, wrap) in wraps.iter().enumerate() {
+            for (k, stretch) in wrap.stretches.iter().enumerate() {
+                let sheet = (stretch.x_from_mm.get(), stretch.x_to_mm.get());
+                let ends =
+                    |centre: f64, length: f64| (centre - 0.5 * length, centre + 0.5 * length);
+                let across = plates.iter().position(|(face, _, centre, plate)| {
+                    wrap.faces.iter().any(|cover| cover.face == *face)
+                        && overlap(sheet, ends(centre.get(), plate.length_mm.get()))
+                });
+                let Some(at) = across else { continue };
+                let (face, what, centre, plate) = plates.remove(at);
+                let ((from, to), (left, right)) =
+                    (sheet, ends(centre.get(), plate.length_mm.get()));
                 self.report(
-                    path,
+                    format!("sheets.wraps[{i}].stretches[{k}]"),
                     format!(
                         "sheet on the {face:?} face from {from} to {to} mm, across the {what}; allowed: up to \
                          {left} mm or from {right} mm"

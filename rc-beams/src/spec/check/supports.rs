@@ -11,23 +11,31 @@ struct Contact {
 }
 
 impl Checks<'_> {
-    pub(super) fn supports(&mut self) {
+    /// Returns whether supports and loads are as they may be: what else depends on their places can be looked at.
+    pub(super) fn supports(&mut self) -> bool {
         let specimen = self.specimen;
         let below = specimen.supports.iter().enumerate().map(|(i, s)| Contact {
             path: format!("supports[{i}].x_mm"),
             centre: s.x_mm.get(),
             length: s.plate.length_mm.get(),
         });
-        self.contacts("support", below.collect());
         let above = specimen.loads.iter().enumerate().map(|(i, load)| Contact {
             path: format!("loads[{i}].x_mm"),
             centre: load.x_mm.get(),
             length: load.plate.length_mm.get(),
         });
-        self.contacts("load", above.collect());
-        self.apart();
-        self.held();
-        for (i, support) in self.specimen.supports.iter().enumerate() {
+        let below = self.passes(|c| c.contacts("support", below.collect()));
+        let above = self.passes(|c| c.contacts("load", above.collect()));
+        let stands = below && above && self.passes(Self::apart);
+        let holds = self.passes(Self::holds_something) && self.passes(Self::held);
+        self.stubs();
+        self.measuring(stands && holds)
+    }
+
+    /// What a support holds is named once.
+    fn holds_something(&mut self) {
+        let specimen = self.specimen;
+        for (i, support) in specimen.supports.iter().enumerate() {
             let path = format!("supports[{i}].held");
             let twice = |h: &Held| support.held.iter().filter(|other| *other == h).count() > 1;
             if support.held.is_empty() {
@@ -44,11 +52,9 @@ impl Checks<'_> {
                 );
             }
         }
-        self.stubs();
-        self.measuring();
     }
 
-    /// Plates lie on the beam, from left to right, apart from each other.
+    /// Plates lie on the beam, from left to right, apart from each other. Behind one that does not, nothing is known.
     fn contacts(&mut self, what: &str, contacts: Vec<Contact>) {
         let mut end = 0.0;
         for Contact {
@@ -69,27 +75,31 @@ impl Checks<'_> {
                     ),
                     format!("order the {what}s from left to right, move the one to its left, or shorten the plates"),
                 );
-                end = centre + half;
-                continue;
+                return;
             }
             let remedy = format!(
                 "a plate of {length} mm lies on the beam and behind the {what} to its left"
             );
-            self.within(
-                path,
-                (&format!("centre of the {what}"), centre),
-                range,
-                &remedy,
-            );
+            let named = format!("centre of the {what}");
+            if !self.passes(|c| c.within(path, (&named, centre), range, &remedy)) {
+                return;
+            }
             end = centre + half;
         }
     }
 
-    /// No load stands above a support: the mesh has element faces at the edges of all plates.
+    /// No load stands above a support: the mesh has element faces at the edges of all plates. Each of both is told once.
     fn apart(&mut self) {
         let specimen = self.specimen;
+        let mut told = Vec::new();
         for (i, load) in specimen.loads.iter().enumerate() {
-            for support in &specimen.supports {
+            for (k, support) in specimen.supports.iter().enumerate() {
+                if told
+                    .iter()
+                    .any(|(load, support)| *load == i || *support == k)
+                {
+                    continue;
+                }
                 let (x, below) = (load.x_mm.get(), support.x_mm.get());
                 let least = 0.5 * (load.plate.length_mm.get() + support.plate.length_mm.get());
                 if (x - below).abs() < least - TOLERANCE {
@@ -101,6 +111,7 @@ impl Checks<'_> {
                         ),
                         "move the load into the span, or shorten the plates",
                     );
+                    told.push((i, k));
                 }
             }
         }
@@ -118,8 +129,7 @@ impl Checks<'_> {
                 ),
                 "add a support with `held: [Uy]`",
             );
-        }
-        if along == 0 {
+        } else if along == 0 {
             self.report(
                 "supports",
                 "supports that hold Ux: 0; allowed: at least 1, or the beam slides",
@@ -146,7 +156,8 @@ impl Checks<'_> {
         }
     }
 
-    fn measuring(&mut self) {
+    /// With `supported` known to be held where it may. Returns whether supports suit what is measured, too.
+    fn measuring(&mut self, supported: bool) -> bool {
         let measuring = &self.specimen.measuring;
         let (length, height, half) = (self.length(), self.height(), self.half_width());
         let point = &measuring.deflection;
@@ -163,7 +174,29 @@ impl Checks<'_> {
                  z from the middle of the width",
             );
         }
-        let x = point.x_mm.get();
+        let supported = supported && self.passes(Self::gauge_in_a_span);
+        let span = &measuring.test_span;
+        let (from, to) = (span.x_from_mm.get(), span.x_to_mm.get());
+        let within = self.passes(|c| {
+            if supported {
+                c.between_supports("x_from_mm", ("beginning of the test span", from));
+            }
+        });
+        let within = within
+            && self.passes(|c| {
+                if supported {
+                    c.between_supports("x_to_mm", ("end of the test span", to));
+                }
+            });
+        if within {
+            self.ascending("measuring.test_span.x_to_mm", from, to);
+        }
+        supported && within && self.passes(Self::inner_shear)
+    }
+
+    /// The deflection is read where the beam can move.
+    fn gauge_in_a_span(&mut self) {
+        let x = self.specimen.measuring.deflection.x_mm.get();
         let holding = self.specimen.supports.iter();
         let holding = holding.filter(|s| s.held.contains(&Held::Uy));
         let mut plates = holding.map(|s| (s.x_mm.get(), 0.5 * s.plate.length_mm.get()));
@@ -178,25 +211,24 @@ impl Checks<'_> {
                 "read it in a span",
             );
         }
-        let span = &measuring.test_span;
-        let (from, to) = (span.x_from_mm.get(), span.x_to_mm.get());
+    }
+
+    fn between_supports(&mut self, field: &str, place: (&str, f64)) {
         let supports = self.specimen.supports.iter().map(|s| s.x_mm.get());
-        let (left, right) =
-            supports.fold((length, 0.0), |(l, r): (f64, f64), x| (l.min(x), r.max(x)));
-        for (field, what, x) in [
-            ("x_from_mm", "beginning of the test span", from),
-            ("x_to_mm", "end of the test span", to),
-        ] {
-            self.within(
-                format!("measuring.test_span.{field}"),
-                (what, x),
-                left..=right.max(left),
-                "the test span lies between the outer supports",
-            );
-        }
-        self.ascending("measuring.test_span.x_to_mm", from, to);
+        let ends = (self.length(), 0.0);
+        let (left, right) = supports.fold(ends, |(l, r): (f64, f64), x| (l.min(x), r.max(x)));
+        self.within(
+            format!("measuring.test_span.{field}"),
+            place,
+            left..=right.max(left),
+            "the test span lies between the outer supports",
+        );
+    }
+
+    /// Shear at an inner support has one, between spans that are alike.
+    fn inner_shear(&mut self) {
         let supports = self.specimen.supports.len();
-        let LoadMeasure::InnerShear { end_support } = measuring.load else {
+        let LoadMeasure::InnerShear { end_support } = self.specimen.measuring.load else {
             return;
         };
         if supports < 3 {
@@ -207,7 +239,9 @@ impl Checks<'_> {
                 ),
                 "measure TotalReactions",
             );
-        } else if end_support != 0 && end_support != supports - 1 {
+            return;
+        }
+        if end_support != 0 && end_support != supports - 1 {
             self.report(
                 "measuring.load.end_support",
                 format!(
