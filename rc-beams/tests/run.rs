@@ -201,6 +201,58 @@ fn an_interrupted_run_keeps_what_it_has() {
     }
 }
 
+/// Target: under self weight an interruption is heeded as well; what goes on from there is a whole run.
+#[cfg(unix)]
+#[test]
+fn an_interruption_under_self_weight_is_heeded() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut arguments = vec!["A-SO3-1", "--mesh", "120x12", "--until", "0.1"];
+    let child = command(folder.path(), &arguments)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let history = folder.path().join("A-SO3-1/history.csv");
+    let rows = || fs::read_to_string(&history).map_or(0, |text| text.lines().count());
+    while rows() == 0 {
+        sleep(Duration::from_millis(1));
+    }
+    signal_to(&child, "-INT");
+    let output = child.wait_with_output().unwrap();
+    let line = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{line}");
+    assert!(line.contains("--resume goes on from there"), "{line}");
+    assert_eq!(rows(), 1, "not even self weight was accepted");
+    arguments.push("--resume");
+    assert_eq!(run(folder.path(), &arguments).status.code(), Some(0));
+    assert!(rows() > 2 && summary(folder.path())["steps"].as_u64() > Some(0));
+}
+
+/// Target: who starts a run that is to ignore a signal, as shells do in the background, is heeded; other signals still end it.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_that_is_ignored_from_the_start_stays_so() {
+    for (signal, code) in [("-INT", 0), ("-TERM", 130)] {
+        let folder = tempfile::tempdir().unwrap();
+        let script =
+            "trap '' INT; exec \"$0\" run A-SO3-1 --mesh 32x2x1 --until 1 --fields none -o \"$1\"";
+        let child = Command::new("sh")
+            .args(["-c", script, env!("CARGO_BIN_EXE_rc-beams")])
+            .arg(folder.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let history = folder.path().join("A-SO3-1/history.csv");
+        while fs::read_to_string(&history).map_or(0, |text| text.lines().count()) < 5 {
+            sleep(Duration::from_millis(1));
+        }
+        signal_to(&child, signal);
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{signal}");
+    }
+}
+
 fn signal_to(child: &Child, signal: &str) {
     let status = Command::new("kill")
         .args([signal, &child.id().to_string()])

@@ -125,6 +125,15 @@ pub trait Observer {
         Ok(())
     }
 
+    /// An iteration under self weight was evaluated.
+    ///
+    /// # Errors
+    ///
+    /// An error ends the run.
+    fn weighing(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+
     /// An iteration of the load stage was evaluated.
     ///
     /// # Errors

@@ -57,6 +57,10 @@ pub(super) struct WeightRecorder<'a> {
 }
 
 impl Recorder for WeightRecorder<'_> {
+    fn iteration(&mut self, _: &IterationRecord) -> io::Result<()> {
+        self.observer.weighing()
+    }
+
     fn recall(&mut self) -> io::Result<Option<Entry>> {
         self.observer.recall()
     }

@@ -5,12 +5,18 @@ use std::fs;
 use std::io::{self, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
 
-use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use super::error::ResultsError;
 use crate::exit::Exit;
+
+/// Signals within this time are one.
+const ONE_SIGNAL: Duration = Duration::from_millis(500);
+/// How often it is looked whether one has come.
+const LOOK_EVERY: Duration = Duration::from_millis(100);
 
 /// Tells a run that its user wants it to stop.
 #[derive(Debug, Clone, Default)]
@@ -21,21 +27,32 @@ pub struct Interrupt {
 }
 
 impl Interrupt {
-    /// Watches for Ctrl-C, SIGTERM and SIGHUP from now on; a SIGHUP that is ignored, as under `nohup`, stays so
-    /// where the system tells (Linux). The first
-    /// is noted, so that the run can end in order; the second ends the process at once. Only once per process.
+    /// Watches for Ctrl-C, SIGTERM and SIGHUP from now on; one that is ignored, as under `nohup`, stays so where the
+    /// system tells (Linux). The first is noted, so that the run can end in order; a second, half a second or more behind it,
+    /// ends the process at once: some programs, as `timeout`, send the first one twice. Only once per process.
     ///
     /// # Errors
     ///
     /// [`ResultsError::Signal`] when the handler cannot be installed.
     pub fn install() -> Result<Self, ResultsError> {
         let interrupt = Self::default();
+        let final_next = Arc::new(AtomicBool::new(false));
         let code = i32::from(Exit::Interrupted.code());
-        for signal in [SIGINT, SIGTERM].into_iter().chain(hang_up()) {
-            flag::register_conditional_shutdown(signal, code, Arc::clone(&interrupt.set))
+        for signal in heeded() {
+            flag::register_conditional_shutdown(signal, code, Arc::clone(&final_next))
                 .and_then(|_| flag::register(signal, Arc::clone(&interrupt.set)))
                 .map_err(ResultsError::Signal)?;
         }
+        let set = Arc::clone(&interrupt.set);
+        let wait = move || {
+            while !set.load(Ordering::Relaxed) {
+                thread::sleep(LOOK_EVERY);
+            }
+            thread::sleep(ONE_SIGNAL);
+            final_next.store(true, Ordering::Relaxed);
+        };
+        let watch = thread::Builder::new().name("signals".into());
+        watch.spawn(wait).map_err(ResultsError::Signal)?;
         Ok(interrupt)
     }
 
@@ -68,16 +85,19 @@ impl Interrupt {
     }
 }
 
-/// The signal of a terminal that goes away, unless it is ignored.
+/// The signals that ask the program to end, but for those that whoever started it has it ignore.
 #[cfg(unix)]
-fn hang_up() -> Option<i32> {
+fn heeded() -> impl Iterator<Item = i32> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
-    (!ignores(&status, signal_hook::consts::SIGHUP)).then_some(signal_hook::consts::SIGHUP)
+    let all = [SIGINT, SIGTERM, SIGHUP].into_iter();
+    all.filter(move |signal| !ignores(&status, *signal))
 }
 
 #[cfg(not(unix))]
-const fn hang_up() -> Option<i32> {
-    None
+fn heeded() -> impl Iterator<Item = i32> {
+    use signal_hook::consts::{SIGINT, SIGTERM};
+    [SIGINT, SIGTERM].into_iter()
 }
 
 /// Whether a process with that status, see proc(5), ignores a signal.
@@ -126,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_signal_is_noted_and_the_second_ends_the_process() {
+    fn signals_at_once_are_noted_and_a_later_one_ends_the_process() {
         let mut child = Command::new(std::env::current_exe().unwrap())
             .args(["--ignored", "--exact", "--nocapture"])
             .arg("results::interrupt::tests::waits_for_signals")
@@ -137,7 +157,9 @@ mod tests {
         let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
         assert!(lines.any(|line| line.unwrap() == "ready"));
         signal(&child);
+        signal(&child);
         assert!(lines.any(|line| line.unwrap() == "Interrupted"));
+        thread::sleep(2 * (ONE_SIGNAL + LOOK_EVERY));
         signal(&child);
         assert_eq!(child.wait().unwrap().code(), Some(130));
     }

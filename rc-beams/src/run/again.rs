@@ -4,11 +4,11 @@
 use std::io;
 
 use fe_solver::capacity::Capacity;
-use fe_solver::recorder::{IterationRecord, StepView};
+use fe_solver::recorder::IterationRecord;
 
 use super::plan::driver;
 use super::{RunError, build};
-use crate::analysis::{Observer, Reading, Staging, Stepping, analyse};
+use crate::analysis::{Observer, Staging, Stepping, analyse};
 use crate::build::ModelSettings;
 use crate::options::RunOptions;
 use crate::results::interrupt::Interrupt;
@@ -19,7 +19,7 @@ use crate::spec::Specimen;
 struct Silent<'a>(&'a Interrupt);
 
 impl Observer for Silent<'_> {
-    fn weight(&mut self, _: &StepView<'_>, _: &Reading) -> io::Result<()> {
+    fn weighing(&mut self) -> io::Result<()> {
         self.0.check()
     }
 

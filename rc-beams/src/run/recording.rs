@@ -205,6 +205,10 @@ impl Observer for Recording<'_> {
         self.record(view, reading, 0)
     }
 
+    fn weighing(&mut self) -> io::Result<()> {
+        self.interrupt.check()
+    }
+
     fn iteration(&mut self, record: &IterationRecord) -> io::Result<()> {
         self.interrupt.check()?;
         self.progress.iteration(record.step, record.iteration);
