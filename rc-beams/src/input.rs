@@ -27,7 +27,9 @@ pub enum InputError {
         help: String,
     },
     /// Two beams would write into one folder.
-    #[error("the beam `{name}` is given twice; allowed: once, its name is that of its results")]
+    #[error(
+        "the beam `{name}` is given twice, by {first} and {again}; allowed: once, its name is that of its results"
+    )]
     #[diagnostic(
         code(rc_beams::twice),
         help("give it once, or change the name in one file")
@@ -35,6 +37,10 @@ pub enum InputError {
     Twice {
         /// The name of the beam.
         name: String,
+        /// What stands for it on the command line.
+        first: String,
+        /// And once more.
+        again: String,
     },
     /// A file that cannot be read.
     #[error("cannot read {}", path.display())]
@@ -85,6 +91,7 @@ impl InputError {
 /// Everything wrong with any of them.
 pub fn load_all(names: &[String]) -> Result<Vec<Specimen>, Vec<InputError>> {
     let mut specimens: Vec<Specimen> = Vec::new();
+    let mut given: Vec<&str> = Vec::new();
     let mut errors = Vec::new();
     let all = BUILTIN.iter().map(|(name, _)| *name);
     let names = names.iter().flat_map(|name| match name.as_str() {
@@ -92,12 +99,22 @@ pub fn load_all(names: &[String]) -> Result<Vec<Specimen>, Vec<InputError>> {
         other => vec![other],
     });
     for name in names {
-        match load(name) {
-            Ok(new) if specimens.iter().any(|s| s.name == new.name) => {
-                errors.push(InputError::Twice { name: new.name });
+        let new = match load(name) {
+            Ok(new) => new,
+            Err(more) => {
+                errors.extend(more);
+                continue;
             }
-            Ok(new) => specimens.push(new),
-            Err(more) => errors.extend(more),
+        };
+        if let Some(at) = specimens.iter().position(|s| s.name == new.name) {
+            errors.push(InputError::Twice {
+                name: new.name,
+                first: given[at].into(),
+                again: name.into(),
+            });
+        } else {
+            specimens.push(new);
+            given.push(name);
         }
     }
     if errors.is_empty() {
@@ -132,16 +149,22 @@ fn text(name: &str) -> Result<String, InputError> {
     }
 }
 
-/// The text of a file, without the byte order mark that some editors put before it.
+/// The text of a file, without the byte order mark that some editors put before it; a carriage return that ends a line alone
+/// is read as the line feed that it stands for, so that places in messages remain.
 ///
 /// # Errors
 ///
 /// [`InputError::File`] and [`InputError::NotText`].
 pub(crate) fn read_file(path: &Path) -> Result<String, InputError> {
-    let bytes = fs::read(path).map_err(|source| InputError::File {
+    let mut bytes = fs::read(path).map_err(|source| InputError::File {
         path: path.into(),
         source,
     })?;
+    for at in 0..bytes.len() {
+        if bytes[at] == b'\r' && bytes.get(at + 1) != Some(&b'\n') {
+            bytes[at] = b'\n';
+        }
+    }
     let no_text = |bytes: &[u8], good: usize| {
         let lines = bytes.iter().take(good).filter(|b| **b == b'\n');
         InputError::NotText {

@@ -44,7 +44,7 @@ pub enum BuildError {
     /// Too few elements in one direction.
     #[error(
         "mesh: {elements} elements {along} the beam are too few for the plates and sheets of {specimen}; {}",
-        least.map_or_else(|| "nor would any more do".into(), |n| format!("with --mesh give {n} or more"))
+        least.map_or_else(|| "nor would any more do".into(), |n| format!("with --mesh give {n} or more as the {} count", nth(along)))
     )]
     TooFewElements {
         /// Specimen.
@@ -87,6 +87,15 @@ pub enum BuildError {
         /// The column.
         column: String,
     },
+}
+
+/// Which count of a mesh is that in a direction.
+fn nth(along: &str) -> &'static str {
+    match along {
+        "along" => "first",
+        "up" => "second",
+        _ => "third",
+    }
 }
 
 /// A beam ready to run.

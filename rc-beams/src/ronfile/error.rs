@@ -42,6 +42,8 @@ impl RonError {
             ("", begin..begin + 2, Words::of(&error.code))
         } else if text[place.start..].trim().is_empty() && expects_more(&error.code) {
             ("", place, Words::of(&Error::Eof))
+        } else if let Some((place, words)) = foreign(text, place.start, &error.code) {
+            ("", place, words)
         } else {
             mistyped_number(text, place.start)
                 .or_else(|| mistyped_number(text, behind_comma(text, place.start)?))
@@ -186,6 +188,36 @@ impl Words {
             Some(format!("allowed: {}", allowed.join(", "))),
         )
     }
+}
+
+/// What lines begin with in languages whose comments or directives are others.
+const FOREIGN: [&str; 8] = ["#", "%", ";", "--", "!", "@", "$", "<"];
+
+/// Recognises a comment or directive of another language that the parser stumbled over at `at`, one that includes another
+/// file for instance. Gives its place and the words.
+fn foreign(text: &str, at: usize, error: &Error) -> Option<(Range<usize>, Words)> {
+    let before = text.get(..at)?;
+    let begin = before.rfind('\n').map_or(0, |i| i + 1);
+    let line = text[begin..].lines().next()?;
+    let lead = line.len() - line.trim_start().len();
+    let sign = FOREIGN.iter().find(|s| line[lead..].starts_with(**s));
+    let at_sign = at <= begin + lead + 2 && !line[lead..].starts_with("#![enable");
+    let what = match (sign.filter(|_| at_sign), error) {
+        (Some(sign), _) => format!("a line that begins with `{sign}`"),
+        (None, Error::ExpectedDifferentStructName { found, .. })
+            if ["include", "import"].contains(&found.as_str()) =>
+        {
+            format!("`{found}`")
+        }
+        _ => return None,
+    };
+    let help = "write here what another file holds: a file stands alone and has no directives; a comment begins with //";
+    let place = if at_sign && sign.is_some() {
+        begin + lead..begin + line.len()
+    } else {
+        at..begin + line.len()
+    };
+    Some((place, Words::new(what, "this", Some(help.into()))))
 }
 
 /// Recognises a number whose tail the parser stumbled over at `at`: a decimal comma, a unit, or a

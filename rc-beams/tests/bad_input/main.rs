@@ -189,6 +189,37 @@ const CASES: &[Case] = &[
         "1.5",
         &["measuring.load.InnerShear.end_support: a fraction; allowed: whole numbers"],
     ),
+    // What is no part of the language.
+    (
+        "    series: A,",
+        "    #include \"series.ron\"\n    series: A,",
+        "#include",
+        &[
+            "a line that begins with `#`",
+            "a file stands alone and has no directives; a comment begins with //",
+        ],
+    ),
+    (
+        "bars: [",
+        "bars: [\n% of the test",
+        "% of",
+        &[
+            "bars[0]: a line that begins with `%`",
+            "a comment begins with //",
+        ],
+    ),
+    (
+        "(\n    name:",
+        "#include \"all.ron\"\n(\n    name:",
+        "#include",
+        &["a line that begins with `#`"],
+    ),
+    (
+        "    beam: (",
+        "    beam: include(\"beam.ron\"), other: (",
+        "include",
+        &["beam: `include`", "a file stands alone"],
+    ),
     // Not a number.
     (
         "length_mm: 3050",
@@ -268,6 +299,15 @@ const CASES: &[Case] = &[
         "held: []",
         "",
         &[
+            "supports[1].held: holds nothing; allowed: Ux, Uy, or both",
+            "name what it holds, or leave the support out",
+        ],
+    ),
+    (
+        "held: [Uy]",
+        "held: [Ux]",
+        "",
+        &[
             "supports: supports that hold Uy: 1; allowed: at least 2",
             "add a support with `held: [Uy]`",
         ],
@@ -298,15 +338,6 @@ const CASES: &[Case] = &[
     ),
     (
         "x_mm: 1680",
-        &[
-            "supports[1].held: holds nothing; allowed: Ux, Uy, or both",
-            "name what it holds, or leave the support out",
-        ],
-    ),
-    (
-        "held: [Uy]",
-        "held: [Ux]",
-        "",
         "x_mm: 1400",
         "1400",
         &[
@@ -489,7 +520,7 @@ const COMMANDS: &[Arguments] = &[
     (
         &["run", "A-SO3-1", "A-SO3-1"],
         2,
-        &["the beam `A-SO3-1` is given twice"],
+        &["the beam `A-SO3-1` is given twice, by A-SO3-1 and A-SO3-1"],
     ),
     (
         &["run", "missing.ron"],
@@ -595,7 +626,7 @@ const COMMANDS: &[Arguments] = &[
     (
         &["run", "A-SO3-1", "--mesh", "4x4x1"],
         2,
-        &["too few", "--mesh"],
+        &["too few", "with --mesh give 13 or more as the first count"],
     ),
     (
         &["run", "A-SO3-1", "--law", "magic"],
@@ -799,6 +830,24 @@ fn files_that_are_no_specimens_are_refused_and_a_byte_order_mark_is_not() {
     fs::write(folder.path().join("x.ron"), format!("{}{BEAM}", '\u{feff}')).unwrap();
     let output = rc_beams(&["check", "x.ron"], folder.path());
     assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+}
+
+/// Target: lines that end with a carriage return alone, or with one before the line feed, are lines: a comment ends with them,
+/// and places are those of an editor.
+#[test]
+fn every_end_of_a_line_is_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let wrong = BEAM.replace("length_mm: 3050", "length_mm: 3");
+    for end in ["\n", "\r\n", "\r"] {
+        let write = |text: &str| {
+            fs::write(folder.path().join("x.ron"), text.replace('\n', end)).unwrap();
+            rc_beams(&["check", "x.ron"], folder.path())
+        };
+        let output = write(BEAM);
+        assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+        let refused = message(&write(&wrong));
+        assert!(refused.contains("[x.ron:9:20]"), "{end:?}: {refused}");
+    }
 }
 
 /// A place of results that cannot be written, of the second beam: the first is not run either.
