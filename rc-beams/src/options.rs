@@ -224,8 +224,8 @@ pub enum Preset {
     /// The reported strength is the mean; 14-point integration, dowel action of the bars; sheets as given
     #[default]
     Physical,
-    /// As physical, but with the sheets of the reference: fibres of the soffit along the beam, shear modulus E/2,
-    /// bond of strips as under a sheet
+    /// As physical, but with strength and sheets as the reference reads them: mean of 8 MPa more than reported, fibres of the
+    /// soffit along the beam, shear modulus E/2, bond of strips as under a sheet
     Reference,
     /// The reported strength is characteristic (mean: 8 MPa more); reduced integration, no dowel action, no interlock,
     /// no compression softening, linear softening in tension, half the band width, axes of cracks fixed at the onset, a tenfold floor

@@ -42,13 +42,15 @@ fn properties(
     let reported = &specimen.concrete;
     let strength = reported.reported_strength_mpa.get();
     let mut read = match settings.preset {
-        Preset::Physical | Preset::Reference => ConcreteScalars::from_mean(strength)?,
+        Preset::Physical => ConcreteScalars::from_mean(strength)?,
+        Preset::Reference => ConcreteScalars::from_characteristic(strength)?,
         Preset::Characteristic => ConcreteScalars {
             fctm_mpa: reported.reported_tensile_mpa.get(),
             ..ConcreteScalars::from_characteristic(strength)?
         },
     };
     read.fctm_mpa *= settings.tensile_strength_factor;
+    read.poisson = reported.poisson.get();
     Ok(read)
 }
 
@@ -69,7 +71,7 @@ pub(super) fn tensile_strength(
 }
 
 /// Law of the concrete in zones with or without stirrups. The fixed-crack law takes the reported modulus,
-/// the others that of the Model Code.
+/// the others that of the Model Code, as the reference does.
 fn concrete(
     specimen: &Specimen,
     settings: &ModelSettings,
@@ -83,7 +85,7 @@ fn concrete(
             let parameters = FixedCrackParameters {
                 fracture_energy: settings.fracture_energy_factor * source.fracture_energy,
                 crushing_energy: settings.crushing_energy_factor * source.crushing_energy,
-                poisson: specimen.concrete.poisson.get(),
+                poisson: c.poisson,
                 shear_floor: settings.shear_floor,
                 tension_softening: settings.tension_softening,
                 shear_transfer: settings.shear_transfer,

@@ -145,3 +145,22 @@ fn too_few_elements_are_refused() {
     };
     assert!(Beam::new(&specimen, &settings).is_ok());
 }
+
+/// materials.md, section 1: the reference reads the reported strength as the characteristic one, 27.5 MPa of A-SO3-1, with
+/// fcm = 35.5 and fctm = 2.733231 MPa; the default reads it as the mean.
+#[test]
+fn the_reference_reads_strengths_as_its_source_does() {
+    let specimen = specimen("A-SO3-1");
+    for (preset, mean) in [
+        (Preset::Physical, 27.5),
+        (Preset::Reference, 35.5),
+        (Preset::Characteristic, 35.5),
+    ] {
+        let settings = ModelSettings::new(preset, &specimen);
+        let fcm = super::laws::mean_strength(&specimen, &settings).unwrap();
+        assert!((fcm - mean).abs() < 1e-12, "{preset:?} {fcm}");
+    }
+    let settings = ModelSettings::new(Preset::Reference, &specimen);
+    let fctm = super::laws::tensile_strength(&specimen, &settings).unwrap();
+    assert!((fctm - 2.733_231).abs() < 1e-6, "{fctm}");
+}

@@ -90,8 +90,8 @@ fn too_few_points(settings: &ModelSettings) -> Option<String> {
     })
 }
 
-/// What can be run and is hardly meant, a line each: options of sheets where none of the `specimens` has any, and more
-/// threads than cores.
+/// What can be run and is hardly meant, a line each: options of sheets where none of the `specimens` has any, a law that takes
+/// no modulus, and more threads than cores.
 pub(crate) fn warnings(specimens: &[Specimen], options: &RunOptions) -> Vec<String> {
     let of_sheets = [
         ("--bond", options.bond != Bond::default()),
@@ -108,5 +108,9 @@ pub(crate) fn warnings(specimens: &[Specimen], options: &RunOptions) -> Vec<Stri
     let crowded = (threads > cores).then(|| {
         format!("--threads {threads} is slower than one per core, of which there are {cores}")
     });
-    idle.chain(crowded).collect()
+    let law = name(&options.law);
+    let stiff = (options.law != Law::FixedCrack).then(|| {
+        format!("--law {law} takes Young's modulus of the Model Code for the strength, not concrete.young_mpa of the specimens")
+    });
+    idle.chain(stiff).chain(crowded).collect()
 }
