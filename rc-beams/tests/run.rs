@@ -367,15 +367,48 @@ fn other_drivers_and_laws_run() {
             "A-SO3-1", "--mesh", "16x2x1", "--until", "0.1", "--fields", "none",
         ];
         let output = run(folder.path(), &[&base[..], &other[..]].concat());
-        assert!(
-            output.status.success(),
-            "{}",
-            String::from_utf8_lossy(&output.stderr)
-        );
+        let shown = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{shown}");
+        // Only the default law takes the modulus of the specimen.
+        let told = shown.contains("warning: --law");
+        assert_eq!(told, other[0] == "--law", "{shown}");
         let summary = summary(folder.path());
         assert_eq!(summary["flagged_steps"], 0, "{summary}");
         assert!(summary["peak_load_kn"].as_f64().unwrap() > 5.0, "{summary}");
         assert!(!folder.path().join("A-SO3-1/fields.pvd").exists());
+    }
+}
+
+/// Target: Poisson's ratio of the specimen counts with every law.
+#[test]
+fn every_law_takes_the_poisson_ratio_of_the_specimen() {
+    let beam = include_str!("../specimens/A-SO3-1.ron");
+    assert_eq!(beam.matches("poisson: 0.2,\n        density").count(), 1);
+    for law in ["fixed-crack", "reference", "objective"] {
+        let load = |poisson: &str| {
+            let folder = tempfile::tempdir().unwrap();
+            let file = folder.path().join("beam.ron");
+            let changed = format!("poisson: {poisson},\n        density");
+            fs::write(
+                &file,
+                beam.replace("poisson: 0.2,\n        density", &changed),
+            )
+            .unwrap();
+            let arguments = [
+                file.to_str().unwrap(),
+                "--mesh",
+                "16x2x1",
+                "--until",
+                "0.1",
+                "--fields",
+                "none",
+                "--law",
+                law,
+            ];
+            assert!(run(folder.path(), &arguments).status.success());
+            summary(folder.path())["peak_load_kn"].as_f64().unwrap()
+        };
+        assert_ne!(load("0.2"), load("0.4"), "{law}");
     }
 }
 

@@ -4,7 +4,7 @@ use plotters::element::{Circle, PathElement, Text};
 use plotters::prelude::DrawingBackend;
 use plotters::style::{Color, RGBColor, WHITE};
 
-use super::axes::axes;
+use super::axes::{axes, span};
 use crate::results::drawing::{Area, Drawn, Picture, draw_heading, line, text, units};
 use crate::results::palette::{BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY_BLUE, VERMILLION};
 
@@ -49,7 +49,8 @@ impl Picture for GroupCurves<'_> {
             let points = each.path.iter().map(|&[w, p]| (w, p)).collect::<Vec<_>>();
             chart.draw_series([PathElement::new(points, line(colour, 2.0))])?;
             if let Some(load) = each.test_load_kn {
-                let stroke = vec![(0.95 * ends.0, load), (ends.0, load)];
+                let [begin, end] = ends.0;
+                let stroke = vec![(end - 0.05 * (end - begin), load), (end, load)];
                 chart.draw_series([PathElement::new(stroke, line(colour, 3.5))])?;
             }
         }
@@ -65,7 +66,7 @@ impl Picture for GroupCurves<'_> {
 
 impl GroupCurves<'_> {
     /// Ends of the axes.
-    fn extent(&self) -> (f64, f64) {
+    fn extent(&self) -> ([f64; 2], f64) {
         let points = || {
             self.lines
                 .iter()
@@ -76,7 +77,7 @@ impl GroupCurves<'_> {
             |values: &mut dyn Iterator<Item = f64>| values.fold(f64::MIN_POSITIVE, f64::max);
         let loads = points().map(|p| p[1]);
         (
-            1.08 * largest(&mut points().map(|p| p[0])),
+            span(&mut points().map(|p| p[0]), 1.08),
             1.08 * largest(&mut loads.chain(tests)),
         )
     }

@@ -14,7 +14,7 @@ use plotters::prelude::{DashedLineSeries, DrawingBackend};
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{Color, WHITE};
 
-use self::axes::{Chart, axes};
+use self::axes::{Chart, axes, span};
 use self::legend::draw_legend;
 use super::drawing::{Area, Drawn, Picture, draw_heading, line, placed, text, units, wrap};
 use super::palette::{BLUE, GREEN, ORANGE, VERMILLION};
@@ -44,10 +44,10 @@ impl Picture for Curve<'_> {
     fn draw<DB: DrawingBackend>(&self, area: &Area<'_, DB>) -> Drawn<DB> {
         let trust = format!("trust {}: {}", self.verdict.trust, self.verdict.reason);
         draw_heading(area, self.specimen, self.title, &wrap(&trust, 118))?;
-        let (x_end, y_end) = self.extent();
-        let mut chart = axes(area, (units(86.0), units(28.0)), (x_end, y_end))?;
+        let ends = self.extent();
+        let mut chart = axes(area, (units(86.0), units(28.0)), ends)?;
         // A load-deflection curve seldom goes to the lower right; where it does, it crosses the legend.
-        draw_legend(area, chart.backend_coord(&(x_end, 0.0)), self.path)?;
+        draw_legend(area, chart.backend_coord(&(ends.0[1], 0.0)), self.path)?;
         self.draw_test(&mut chart)?;
         self.draw_path(&mut chart)?;
         self.draw_marks(&chart, area)
@@ -56,13 +56,13 @@ impl Picture for Curve<'_> {
 
 impl Curve<'_> {
     /// Ends of the axes, with room above the curve for labels.
-    fn extent(&self) -> (f64, f64) {
+    fn extent(&self) -> ([f64; 2], f64) {
         let largest =
             |values: &mut dyn Iterator<Item = f64>| values.fold(f64::MIN_POSITIVE, f64::max);
-        let deflection = largest(&mut self.path.iter().map(|p| p.deflection));
+        let mut deflections = self.path.iter().map(|p| p.deflection);
         let loads = self.path.iter().map(|p| p.load);
         let load = largest(&mut loads.chain(self.test_load_kn));
-        (1.05 * deflection, 1.18 * load)
+        (span(&mut deflections, 1.05), 1.18 * load)
     }
 
     /// Load of the laboratory test as a dashed line.
@@ -70,14 +70,15 @@ impl Curve<'_> {
         let Some(load) = self.test_load_kn else {
             return Ok(());
         };
-        let ends = [(0.0, load), (self.extent().0, load)];
+        let ([begin, end], _) = self.extent();
+        let ends = [(begin, load), (end, load)];
         let style = line(GREEN, 1.5);
         chart.draw_series(DashedLineSeries::new(ends, units(8.0), units(5.0), style))?;
         let label = format!("test {load:.1} kN");
         let style = placed(&text(GREEN, 13.0), HPos::Left, VPos::Bottom);
-        chart.draw_series([
-            EmptyElement::at((0.0, load)) + Text::new(label, (units(8.0), units(-4.0)), style)
-        ])?;
+        chart
+            .draw_series([EmptyElement::at((begin, load))
+                + Text::new(label, (units(8.0), units(-4.0)), style)])?;
         Ok(())
     }
 
@@ -137,7 +138,7 @@ impl Curve<'_> {
         let line_y = self.test_load_kn.map(|p| chart.backend_coord(&(0.0, p)).1);
         let close = line_y.filter(|l| (y - units(28.0)..y + units(6.0)).contains(l));
         let label_y = close.map_or(y, |l| l.min(y)) - units(9.0);
-        let [left, right] = [0.0, self.extent().0].map(|x| chart.backend_coord(&(x, 0.0)).0);
+        let [left, right] = self.extent().0.map(|x| chart.backend_coord(&(x, 0.0)).0);
         let half = units(95.0);
         let (label_x, h) = if x + half > right {
             (right, HPos::Right)
@@ -223,6 +224,22 @@ mod tests {
         assert!(!svg.contains("first drop"), "the peak is the first drop");
         assert!(svg.contains("jump, no static equilibrium"));
         assert!(svg.contains("step that misses the criterion"));
+    }
+
+    /// Between loads on cantilevers a beam moves up: its curve goes to the left.
+    #[test]
+    fn a_point_that_moves_up_is_drawn_too() {
+        let down = path(&[0.0, 100.0, 50.0]);
+        let mut up = down.clone();
+        for point in &mut up {
+            point.deflection *= -1.0;
+        }
+        let labels = |path: &[PathPoint]| {
+            let svg = svg(path, Some(90.0));
+            ["\n-1\n", "\n1\n"].map(|label| svg.contains(label))
+        };
+        assert_eq!(labels(&down), [false, true]);
+        assert_eq!(labels(&up), [true, false]);
     }
 
     #[test]
