@@ -8,7 +8,7 @@ use fe_core::voigt::{principal, strain_voigt, stress_tensor};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use super::elastic_bound::surely_elastic;
-use super::plastic_state::{PLASTIC_VARS, PlasticState, RETURN_TOLERANCE, YIELD_TOLERANCE};
+use super::plastic_state::{PLASTIC_VARS, PlasticState, RETURN_TOLERANCE, yield_limit};
 use super::root::{bracketed_root, is_number};
 use super::{Calibration, CompressionCurve, ConcreteScalars, Ottosen};
 use crate::elasticity::Elasticity;
@@ -135,7 +135,7 @@ impl Isochoric {
             return Ok(elastic);
         }
         let eta = curve.eta(committed.kappa);
-        let limit = curve.at(eta).stress * (1.0 + YIELD_TOLERANCE);
+        let limit = yield_limit(curve, eta);
         let effective = self
             .surface
             .principal_effective_stress(&negative(&principal));

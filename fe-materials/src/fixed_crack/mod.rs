@@ -46,7 +46,7 @@
 //! instead would: when a crack closes the factor jumps back to one with a large shear strain standing.
 //!
 //! The growth of the histories in a step is scaled by the relaxation a of the context (backward Euler of
-//! k' = <e - k>/tau, a = dt/(tau + dt)).
+//! k' = <e - k>/tau, a = dt/(tau + dt)). That a crack opens, or is fixed by a second one, is no growth: it happens at any a.
 
 mod compression_softening;
 mod confinement;
@@ -137,7 +137,7 @@ impl FixedCrack {
         p.check()?;
         let other = onset.as_ref().map(crate::concrete::Ottosen::strength);
         if let Some(other) = other.filter(|f| (f / p.fcm_mpa - 1.0).abs() > SAME_STRENGTH) {
-            let allowed = format!("that of the surface of onset, {other}");
+            let allowed = format!("[{other}, {other}], the strength of the surface of onset");
             return Err(out_of_range("fcm_mpa", p.fcm_mpa, "MPa", &allowed));
         }
         Ok(Self {

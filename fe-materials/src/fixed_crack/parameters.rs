@@ -104,7 +104,7 @@ impl FixedCrackParameters {
             }
         }
         if self.ft_mpa >= self.fcm_mpa {
-            let allowed = format!("below the compressive strength, {} MPa", self.fcm_mpa);
+            let allowed = format!("(0, {}), the compressive strength", self.fcm_mpa);
             return Err(out_of_range("ft_mpa", self.ft_mpa, "MPa", &allowed));
         }
         if !(0.0..0.5).contains(&self.poisson) {

@@ -9,7 +9,7 @@ use fe_core::material::{
 use fe_core::voigt::{principal, stress_tensor, stress_voigt};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use super::plastic_state::{PLASTIC_VARS, PlasticState, RETURN_TOLERANCE, YIELD_TOLERANCE};
+use super::plastic_state::{PLASTIC_VARS, PlasticState, RETURN_TOLERANCE, yield_limit};
 use super::root::{NotConverged, bracketed_root, is_number};
 use super::spectral::{from_principal, spin_quotients};
 use super::{Calibration, CompressionCurve, ConcreteScalars, CurvePoint, Ottosen};
@@ -18,10 +18,6 @@ use crate::limits::finite;
 use projection::{Projected, Projection};
 
 const LAW: &str = "associated Ottosen plasticity";
-
-/// Effective stress over the strength up to which the virgin law is elastic, to any digit: the derivatives of smaller ones
-/// leave the range of numbers.
-const NOTHING: f64 = 1e-50;
 
 /// Associated plasticity with the Ottosen surface as loading surface.
 ///
@@ -159,10 +155,8 @@ impl Material<Solid> for Associated {
         let mut state = PlasticState::read(committed);
         let predictor = self.elastic.stress(&(strain - state.strain));
         let (principal, axes) = principal(&stress_tensor(&predictor));
-        let yield_stress = self.curve.at(self.curve.eta(state.kappa)).stress;
         let effective = self.surface.principal_effective_stress(&principal);
-        let elastic = (yield_stress * (1.0 + YIELD_TOLERANCE)).max(NOTHING * self.curve.strength());
-        if effective <= elastic {
+        if effective <= yield_limit(&self.curve, self.curve.eta(state.kappa)) {
             state.write(trial);
             return Ok(Response {
                 stress: predictor,

@@ -85,12 +85,14 @@ impl<'a> Projection<'a> {
             .atan2((trial[0] - trial[1]) + (trial[0] - trial[2]))
             .min(FRAC_PI_3);
         let apex_angle = apex_angle(surface, angle)?;
+        let [of_trial, ..] = surface.polar_lambda(angle);
         let [lambda, ..] = surface.polar_lambda(apex_angle);
         let apex = radius * (apex_angle - angle).cos() / lambda;
         Ok(Self {
             surface,
             elastic,
-            effective: surface.principal_effective_stress(trial),
+            // As `place` finds it: next to the hydrostatic axis rounding of the other way is larger than the tolerance.
+            effective: surface.polar_value(of_trial, radius, 3.0 * mean).0,
             mean,
             radius,
             angle,

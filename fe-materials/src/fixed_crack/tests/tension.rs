@@ -102,3 +102,17 @@ fn latching_keeps_axes_but_not_growth() {
     let onset = parameters().ft_mpa / parameters().young_mpa;
     assert!((base[10] - onset).abs() < 1e-15, "kappa_t at onset only");
 }
+
+/// A history that is frozen does not grow, but a crack opens all the same: its strain stays that of the onset.
+#[test]
+fn a_crack_opens_in_a_frozen_history() {
+    let (law, p) = (law(0.2), parameters());
+    let mut state = vec![0.0; law.state_len()];
+    let ctx = PointContext {
+        relaxation: 0.0,
+        ..PointContext::new(WIDTH)
+    };
+    law.update(&axial(3e-4), &[0.0; 20], &mut state, &ctx)
+        .unwrap();
+    assert_eq!((state[0], state[10]), (1.0, p.ft_mpa / p.young_mpa));
+}
