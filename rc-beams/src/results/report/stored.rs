@@ -128,6 +128,8 @@ pub(super) fn read(folder: &Path) -> (Option<Stored>, Vec<String>) {
     });
     let peak = [summary.deflection_at_peak_mm, summary.peak_load_kn];
     let holds_peak = path.iter().any(|point| same(*point, peak));
+    // How many rows other tables should have is known then.
+    let is_whole = history.is_ok();
     match history {
         Err(what) => wrong.push(what),
         Ok(()) if !holds_peak => wrong.push(
@@ -151,7 +153,7 @@ pub(super) fn read(folder: &Path) -> (Option<Stored>, Vec<String>) {
     });
     match gauges {
         Err(what) => wrong.push(what),
-        Ok(()) => wrong.extend(unlike("gauges.csv", gauged, &beam.path)),
+        Ok(()) => wrong.extend(unlike("gauges.csv", gauged, &beam.path).filter(|_| is_whole)),
     }
     wrong.extend(rows(folder, "newton.csv", &mut |_| Ok(())).err());
     let events = rows(folder, "events.csv", &mut |row| {
@@ -171,7 +173,7 @@ pub(super) fn read(folder: &Path) -> (Option<Stored>, Vec<String>) {
         match sheets(folder, peak) {
             Ok((found, rows)) => {
                 beam.sheets = Some(found);
-                wrong.extend(unlike("sheets.csv", rows, &beam.path));
+                wrong.extend(unlike("sheets.csv", rows, &beam.path).filter(|_| is_whole));
             }
             Err(what) => wrong.push(what),
         }

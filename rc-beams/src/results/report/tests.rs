@@ -197,6 +197,7 @@ fn damaged_results_are_told_once_per_beam_and_the_others_are_reported() {
         assert_eq!(report.problems.len(), 1, "{file}: {:?}", report.problems);
         let problem = &report.problems[0];
         assert!(problem.starts_with("A-SO3-1: "), "{problem}");
+        assert!(!problem.contains("; gauges.csv"), "{problem}");
         for word in words {
             assert!(problem.contains(word), "{problem} lacks {word}");
         }
