@@ -1,4 +1,4 @@
-//! One mistake, one message: what follows from a wrong support is not told as well.
+//! One mistake, one message: what follows from it is not told as well.
 
 use rc_beams::spec::read;
 
@@ -8,10 +8,12 @@ const BEAMS: [&str; 3] = [
     include_str!("../../specimens/A-SO3-2.ron"),
 ];
 
-/// Begin and end of the list of a field of the specimen.
-fn list(beam: &str, field: &str) -> (usize, usize) {
-    let begin = beam.find(&format!("\n    {field}: [")).unwrap();
-    (begin, begin + beam[begin..].find("\n    ],").unwrap())
+/// Begin and end of the first list of a field, if there is one.
+fn list(beam: &str, field: &str) -> Option<(usize, usize)> {
+    let begin = beam.find(&format!("{field}: ["))?;
+    let line = beam[..begin].rfind('\n')?;
+    let close = format!("{}],", &beam[line..begin]);
+    Some((line, begin + beam[begin..].find(&close)?))
 }
 
 /// Begin and end of every number of a stretch of text.
@@ -25,14 +27,18 @@ fn numbers(beam: &str, (begin, end): (usize, usize)) -> Vec<(usize, usize)> {
         .collect()
 }
 
-/// Target: each number of supports and loads set to others all over its range and beyond.
+/// Target: each number of supports, loads, zones of stirrups and stretches of sheets set to others all over its range and
+/// beyond.
 #[test]
-fn one_wrong_number_of_a_support_is_told_once() {
+fn one_wrong_number_is_told_once() {
     let mut refused = 0;
     for beam in BEAMS {
-        for field in ["supports", "loads"] {
-            for (begin, end) in numbers(beam, list(beam, field)) {
-                for value in (-1..500).map(|i| 10.0 * f64::from(i)) {
+        for field in ["supports", "loads", "zones", "stretches"] {
+            let Some(within) = list(beam, field) else {
+                continue;
+            };
+            for (begin, end) in numbers(beam, within) {
+                for value in (-1..250).map(|i| 20.0 * f64::from(i)) {
                     let text = format!("{} {value:?}{}", &beam[..begin], &beam[end..]);
                     let Err(errors) = read("beam", &text) else {
                         continue;
@@ -68,7 +74,7 @@ fn one_wrong_list_of_what_a_support_holds_is_told_once() {
 #[test]
 fn a_missing_support_is_told_once() {
     for beam in BEAMS {
-        let (begin, end) = list(beam, "supports");
+        let (begin, end) = list(beam, "supports").unwrap();
         let first = begin + beam[begin..].find("        (\n").unwrap();
         let second = first + beam[first..].find("        ),\n").unwrap() + "        ),\n".len();
         for rest in [second, end + 1] {

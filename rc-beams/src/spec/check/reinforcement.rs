@@ -175,7 +175,8 @@ impl Checks<'_> {
         }
     }
 
-    /// Zones fill the beam from end to end; stirrups lie in their zone and apart from each other.
+    /// Zones fill the beam from end to end; stirrups lie in their zone and apart from each other. Behind a wrong zone nothing is
+    /// known.
     fn zones(&mut self, stirrups: &Stirrups) {
         let mut end = 0.0;
         let mut last = f64::NEG_INFINITY;
@@ -190,9 +191,13 @@ impl Checks<'_> {
                     ),
                     "give a zone without stirrups as `stirrups: None`",
                 );
+                return;
             }
-            self.ascending(format!("{path}.x_to_mm"), from, to);
-            self.row(&path, zone, last + stirrups.diameter_mm.get());
+            let fits = self.passes(|c| c.ascending(format!("{path}.x_to_mm"), from, to))
+                && self.passes(|c| c.row(&path, zone, last + stirrups.diameter_mm.get()));
+            if !fits {
+                return;
+            }
             end = to;
             last = zone.positions().last().copied().unwrap_or(last);
         }

@@ -54,6 +54,7 @@ impl Checks<'_> {
     pub(super) fn sheets(&mut self, supported: bool) {
         let specimen = self.specimen;
         let mut patches = Vec::new();
+        let mut laid = true;
         if let Some(sheets) = &specimen.sheets {
             self.at_least_one("sheets.wraps", "wraps", sheets.wraps.len());
             for (i, wrap) in sheets.wraps.iter().enumerate() {
@@ -66,7 +67,7 @@ impl Checks<'_> {
                     wrap.sheet_names()
                         .all(|name| self.named_once(&path, ("sheets", &name), others.iter()));
                 }
-                self.wrap(&path, wrap);
+                laid &= self.passes(|c| c.wrap(&path, wrap));
                 for (k, cover) in wrap.faces.iter().enumerate() {
                     let path = format!("{path}.faces[{k}]");
                     patches.extend(wrap.stretches.iter().map(|stretch| Patch {
@@ -76,8 +77,8 @@ impl Checks<'_> {
                     }));
                 }
             }
-            self.covered_once(&patches);
-            if supported {
+            let alone = laid && self.passes(|c| c.covered_once(&patches));
+            if alone && supported {
                 self.clear_of_plates(&sheets.wraps);
             }
         } else if specimen.staged.is_some() {
@@ -94,7 +95,7 @@ impl Checks<'_> {
             let path = format!("measuring.sheet_gauges[{i}]");
             let before = gauges[..i].iter().map(|g| &g.name).chain(&others);
             self.named_once(&path, ("gauges", &gauge.name), before);
-            self.gauge(&path, gauge, &patches);
+            self.gauge(&path, gauge, laid.then_some(&patches));
         }
     }
 
@@ -114,15 +115,19 @@ impl Checks<'_> {
         for (i, stretch) in stretches.iter().enumerate() {
             let path = format!("{path}.stretches[{i}]");
             let (from, to) = (stretch.x_from_mm.get(), stretch.x_to_mm.get());
-            self.within(
-                format!("{path}.x_from_mm"),
-                ("left end of the stretch", from),
-                least..=length.max(least),
-                "stretches lie on the beam, each behind the one to its left with a gap between",
-            );
+            let left = ("left end of the stretch", from);
             let right = ("right end of the stretch", to);
-            self.within(format!("{path}.x_to_mm"), right, 0.0..=length, ALONG);
-            self.ascending(format!("{path}.x_to_mm"), from, to);
+            let on_beam = least..=length.max(least);
+            let behind =
+                "stretches lie on the beam, each behind the one to its left with a gap between";
+            let end = format!("{path}.x_to_mm");
+            let fits = self
+                .passes(|c| c.within(format!("{path}.x_from_mm"), left, on_beam, behind))
+                && self.passes(|c| c.within(&end, right, 0.0..=length, ALONG))
+                && self.passes(|c| c.ascending(&end, from, to));
+            if !fits {
+                break;
+            }
             least = to + GAP;
         }
         for (i, cover) in faces.iter().enumerate() {
@@ -219,11 +224,13 @@ impl Checks<'_> {
         }
     }
 
-    fn gauge(&mut self, path: &str, gauge: &SheetGauge, patches: &[Patch]) {
+    /// With `patches` that are known, gauges lie on them.
+    fn gauge(&mut self, path: &str, gauge: &SheetGauge, patches: Option<&Vec<Patch>>) {
         let (x, y, z) = (gauge.x_mm.get(), gauge.y_mm.get(), gauge.z_mm.get());
         let half = self.half_width();
         let side = "gauges are on the side face, half of the width from its middle";
         self.within(format!("{path}.z_mm"), ("gauge", z), half..=half, side);
+        let Some(patches) = patches else { return };
         let on_sheet = |x, y| {
             let mut sides = patches.iter().filter(|p| p.cover.face == Face::Side);
             sides.any(|p| p.holds(x, y))
