@@ -47,7 +47,9 @@ impl Block {
     /// The pivot, or of a block of two columns the product of its eigenvalues over the largest entry.
     pub(super) fn size(&self) -> f64 {
         let [a, b] = self.diagonal;
-        self.off.map_or(a, |off| (a * b - off * off) / off.abs())
+        // Scaled by the off-diagonal entry, whose square may be beyond numbers.
+        self.off
+            .map_or(a, |off| off.abs() * ((a / off) * (b / off) - 1.0))
     }
 
     /// Number of negative eigenvalues.

@@ -352,12 +352,13 @@ fn a_matrix_is_not_factorised_twice_in_a_row() {
     }
 }
 
-/// Whether an unsymmetric matrix is regular does not depend on the unit of the forces, nor on that of each unknown: c D A D is
-/// what A is, for factors c and diagonals D over many orders of magnitude, also where the diagonal has a zero.
+/// Whether a matrix is regular does not depend on the unit of the forces, nor on that of each unknown: c D A D is what A is, for
+/// factors c and diagonals D over many orders of magnitude, symmetric, indefinite or not, also where the diagonal has a zero.
 #[test]
-fn the_verdict_on_an_unsymmetric_matrix_is_that_of_any_scaling() {
+fn the_verdict_on_a_matrix_is_that_of_any_scaling() {
     let p = pattern(41);
     let sound = values(&p, 3, |_| 3.0, true);
+    let indefinite = values(&p, 3, |j| if j % 3 == 0 { -0.3 } else { 0.2 }, false);
     let mut without_diagonal = sound.clone();
     without_diagonal.lower[p.col_ptr()[20]] = 0.0;
     without_diagonal.upper[p.col_ptr()[20]] = 0.0;
@@ -377,7 +378,15 @@ fn the_verdict_on_an_unsymmetric_matrix_is_that_of_any_scaling() {
         loose.lower[p.col_ptr()[j]] = sum;
         loose.upper[p.col_ptr()[j]] = sum;
     }
-    for (matrix, regular) in [(&sound, true), (&without_diagonal, true), (&loose, false)] {
+    let mut loose_symmetric = loose.clone();
+    loose_symmetric.upper.clear();
+    for (matrix, regular) in [
+        (&sound, true),
+        (&without_diagonal, true),
+        (&loose, false),
+        (&indefinite, true),
+        (&loose_symmetric, false),
+    ] {
         for factor in [1.0, 1e-30, 1e30, 3e-200, 7e150] {
             for orders in [0.0, 3.0, 8.0] {
                 let scale = |i: usize| 10_f64.powf(orders * (1.3 * i as f64).sin());
@@ -386,7 +395,9 @@ fn the_verdict_on_an_unsymmetric_matrix_is_that_of_any_scaling() {
                     for k in p.column(j) {
                         let both = factor * scale(j) * scale(p.row_idx()[k]);
                         scaled.lower[k] *= both;
-                        scaled.upper[k] *= both;
+                        if let Some(upper) = scaled.upper.get_mut(k) {
+                            *upper *= both;
+                        }
                     }
                 }
                 let mut solver = DirectSolver::default();
