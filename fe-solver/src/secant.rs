@@ -193,7 +193,7 @@ impl SecantAnderson {
     /// without one, a linear solve from it. The operator is the tangent there if the stage holds it and it is positive
     /// definite, else the secant operator: that of the linear solve, or another one.
     fn start(stage: &mut Stage<'_>, step: f64) -> Result<(Vec<f64>, Start), SolverError> {
-        let extrapolates = stage.previous().is_some();
+        let extrapolates = Self::last(stage).is_some();
         let at_hand = stage.holds_stable_tangent() || !extrapolates;
         let first = Self::predict(stage, step)?;
         let start = if at_hand {
@@ -204,10 +204,15 @@ impl SecantAnderson {
         Ok((first, start))
     }
 
+    /// The last increment, if the load factor has changed in it: what it is extrapolated by.
+    fn last<'a>(stage: &'a Stage<'_>) -> Option<(&'a [f64], f64)> {
+        stage.previous().filter(|(_, dl)| *dl != 0.0)
+    }
+
     /// The first iterate of [`Self::start`].
     pub(crate) fn predict(stage: &mut Stage<'_>, step: f64) -> Result<Vec<f64>, SolverError> {
         let accepted = stage.displacement();
-        if let Some((du, dl)) = stage.previous() {
+        if let Some((du, dl)) = Self::last(stage) {
             let ratio = step / dl;
             let at: Vec<f64> = accepted
                 .iter()
