@@ -126,6 +126,22 @@ fn a_yielding_bar_dissipates_as_much_as_it_is_told() {
     }
 }
 
+/// An elastic path dissipates nothing but rounding, which is no derivative: it is refused, at rest and on the way, and no step is
+/// taken to wherever rounding would have dissipated what was asked for.
+#[test]
+fn a_path_that_dissipates_nothing_is_refused() {
+    let law = || Arc::new(VonMises::new(YOUNG, 0.3, YIELD, HARDENING).unwrap());
+    for elastic in [0, 1, 5] {
+        for (bar, first) in [(pulled(law()), 4_000.0), (drawn(law()), 0.002)] {
+            let legs = vec![(first, elastic, loaded()), (50.0, 1, dissipating())];
+            let path = follow(bar, legs.into_iter().filter(|leg| leg.1 > 0).collect());
+            assert_eq!(path.stresses.len(), elastic, "{:?}", path.stresses);
+            let stopped = path.stopped.unwrap_or_default();
+            assert!(stopped.contains("path constraint controls"), "{stopped}");
+        }
+    }
+}
+
 /// A law that heals: its secant modulus grows with the strain, and it states no energy.
 #[derive(Debug)]
 struct Healing;

@@ -10,6 +10,8 @@ use crate::stage::Stage;
 
 /// Share of the increment by which derivatives are taken.
 const PROBE: f64 = 1e-5;
+/// Share of all works done so far below which a difference of dissipations is rounding: no derivative is made of it.
+const NOISE: f64 = 1e-13;
 
 /// A step dissipates the energy `length` (N mm): g = D - length,
 ///
@@ -21,7 +23,7 @@ const PROBE: f64 = 1e-5;
 /// imposed displacements; [`Dissipation`](super::Dissipation) is cheaper and holds for damage under forces.
 ///
 /// The gradient is taken by differences in the two directions that the bordered system asks for, three evaluations of the
-/// model per iteration. A path that dissipates nothing cannot be followed: start with another constraint.
+/// model per iteration. A path that dissipates nothing cannot be followed, and is refused: start with another constraint.
 #[derive(Debug, Clone, Default)]
 pub struct DissipatedEnergy {
     length: f64,
@@ -56,9 +58,10 @@ impl PathConstraint for DissipatedEnergy {
             let free: Vec<f64> = moved.map(|((u, d), a)| u + d + share * a).collect();
             let u = stage.compose(&free, lambda);
             stage.residual(&u, lambda, &EvaluationContext::new(Operator::None))?;
-            Ok::<_, SolverError>(stage.weigh(&u, lambda)?.dissipated())
+            let change = stage.weigh(&u, lambda)?;
+            Ok::<_, SolverError>((change.dissipated(), NOISE * change.turnover))
         };
-        let here = dissipated(correction, 0.0, from)?;
+        let (here, _) = dissipated(correction, 0.0, from)?;
         let size = dot(du, du).sqrt();
         let mut slope = |along: &[f64], dlambda: f64| {
             let length = dot(along, along).sqrt();
@@ -67,7 +70,13 @@ impl PathConstraint for DissipatedEnergy {
             }
             // Before anything has moved, the whole direction is as good a measure as any.
             let share = PROBE * if size > 0.0 { size / length } else { 1.0 };
-            Ok((dissipated(along, share, from + share * dlambda)? - here) / share)
+            let (there, noise) = dissipated(along, share, from + share * dlambda)?;
+            let change = there - here;
+            Ok(if change.abs() <= noise {
+                0.0
+            } else {
+                change / share
+            })
         };
         let slopes = [slope(correction, 0.0)?, slope(response, 1.0)?];
         self.value = here - self.length;
