@@ -9,6 +9,10 @@ use crate::error::SolverError;
 use crate::path::{LoadFactor, PathConstraint};
 use crate::stage::Stage;
 
+/// Share of the two parts of its response, that to the load factor and that to the displacements, below which what a path
+/// constraint controls does not respond: they cancel, but for the rounding of a solution.
+const UNRESPONSIVE: f64 = 1e-9;
+
 /// When the tangent is rebuilt and factorised.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Refactor {
@@ -144,8 +148,10 @@ impl Driver for NewtonRaphson {
             let directions = [correction.as_slice(), reference.as_slice()];
             self.constraint.observe(stage, (&du, advance), directions)?;
             let border = self.constraint.linearise(&du, advance, &mut gradient);
-            let response = border.slope + dot(&gradient, &reference);
-            if iterations == 0 && (response == 0.0 || !response.is_finite()) {
+            let along = dot(&gradient, &reference);
+            let response = border.slope + along;
+            let least = UNRESPONSIVE * (border.slope.abs() + along.abs());
+            if iterations == 0 && (response.abs() <= least || !response.is_finite()) {
                 return Err(SolverError::Setting {
                     what: "change of what the path constraint controls under the load",
                     value: response,
