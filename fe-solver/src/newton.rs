@@ -154,7 +154,7 @@ impl Driver for NewtonRaphson {
             if iterations == 0 && (response.abs() <= least || !response.is_finite()) {
                 return Err(SolverError::Setting {
                     what: "change of what the path constraint controls under the load",
-                    value: response,
+                    value: if response.is_finite() { 0.0 } else { response },
                     allowed: "other numbers than 0: control what responds to the load",
                 });
             }
