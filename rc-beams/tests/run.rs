@@ -207,22 +207,27 @@ fn an_interrupted_run_keeps_what_it_has() {
 fn an_interruption_under_self_weight_is_heeded() {
     let folder = tempfile::tempdir().unwrap();
     let mut arguments = vec!["A-SO3-1", "--mesh", "120x12", "--until", "0.1"];
-    let child = command(folder.path(), &arguments)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
     let history = folder.path().join("A-SO3-1/history.csv");
     let rows = || fs::read_to_string(&history).map_or(0, |text| text.lines().count());
-    while rows() == 0 {
-        sleep(Duration::from_millis(1));
-    }
-    signal_to(&child, "-INT");
-    let output = child.wait_with_output().unwrap();
-    let line = String::from_utf8(output.stdout).unwrap();
-    assert_eq!(output.status.code(), Some(130), "{line}");
-    assert!(line.contains("--resume goes on from there"), "{line}");
-    assert_eq!(rows(), 1, "not even self weight was accepted");
+    // On a busy machine a signal may come only after self weight was accepted.
+    let heeded = (0..5).any(|_| {
+        let _ = fs::remove_file(&history);
+        let child = command(folder.path(), &arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        while rows() == 0 {
+            sleep(Duration::from_millis(1));
+        }
+        signal_to(&child, "-INT");
+        let output = child.wait_with_output().unwrap();
+        let line = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(130), "{line}");
+        assert!(line.contains("--resume goes on from there"), "{line}");
+        rows() == 1
+    });
+    assert!(heeded, "self weight was accepted each time");
     arguments.push("--resume");
     assert_eq!(run(folder.path(), &arguments).status.code(), Some(0));
     assert!(rows() > 2 && summary(folder.path())["steps"].as_u64() > Some(0));
