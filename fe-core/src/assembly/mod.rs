@@ -221,12 +221,11 @@ impl Assembler {
 
     /// Refuses what is not of the model that was numbered.
     fn admit(&self, model: &Model, u: &[f64], state: &StateStore) -> Result<(), ModelError> {
-        let (dofs, elements) = (model.dofs().len(), model.elements());
+        let (dofs, sizes) = (model.dofs().len(), model.sizes());
         ModelError::same("numbered DOFs", self.equation.len(), dofs)?;
-        ModelError::same("numbered elements", self.element_dofs.len(), elements.len())?;
-        for (element, numbered) in elements.iter().zip(&self.element_dofs) {
-            let own = element.nodes().len() * element.dofs().len();
-            ModelError::same("numbered DOFs of an element", numbered.len(), own)?;
+        ModelError::same("numbered elements", self.element_dofs.len(), sizes.len())?;
+        for (size, numbered) in sizes.iter().zip(&self.element_dofs) {
+            ModelError::same("numbered DOFs of an element", numbered.len(), size.dofs)?;
         }
         model.admit(u, state)
     }

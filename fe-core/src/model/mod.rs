@@ -19,6 +19,25 @@ pub struct Model {
     elements: Vec<Box<dyn Element>>,
     dofs: DofMap,
     followers: Followers,
+    sizes: Vec<Size>,
+}
+
+/// How much an element has, kept so that it can be looked at before every evaluation.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Size {
+    /// DOFs.
+    pub(crate) dofs: usize,
+    /// History variables.
+    history: usize,
+}
+
+impl Size {
+    fn of(element: &dyn Element) -> Self {
+        Self {
+            dofs: element.nodes().len() * element.dofs().len(),
+            history: element.state_len(),
+        }
+    }
 }
 
 impl Model {
@@ -62,6 +81,7 @@ impl Model {
             }
         }
         Ok(Self {
+            sizes: elements.iter().map(|e| Size::of(e.as_ref())).collect(),
             mesh,
             elements,
             dofs,
@@ -82,6 +102,11 @@ impl Model {
     /// The elements.
     pub fn elements(&self) -> &[Box<dyn Element>] {
         &self.elements
+    }
+
+    /// Sizes of the elements.
+    pub(crate) fn sizes(&self) -> &[Size] {
+        &self.sizes
     }
 
     /// The numbering.
@@ -170,7 +195,7 @@ impl Model {
         ModelError::same("displacements", u.len(), self.dofs.len())?;
         ModelError::same("elements with a state", found, expected)?;
         elements.try_for_each(|e| {
-            let (found, expected) = (state.range(e).len(), self.elements[e].state_len());
+            let (found, expected) = (state.range(e).len(), self.sizes[e].history);
             ModelError::same("history variables of an element", found, expected)
         })
     }
