@@ -88,6 +88,9 @@ pub trait Driver: Debug + Send {
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError>;
 
+    /// The last attempt is accepted; one that is not so told before the next has not happened.
+    fn accepted(&mut self) {}
+
     /// What the driver keeps of the accepted steps beside the state of the stage, for [`Self::recall`].
     fn memory(&self) -> Vec<f64> {
         Vec::new()

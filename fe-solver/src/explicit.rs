@@ -72,8 +72,6 @@ pub struct Explicit {
     motion: Motion,
     /// At the end of the last attempt, not yet known to be accepted.
     pending: Option<Motion>,
-    /// Accepted steps of the stage when it was looked at last.
-    seen: usize,
 }
 
 impl Explicit {
@@ -168,12 +166,7 @@ impl Driver for Explicit {
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
         let s = self.settings;
-        let steps = stage.counters().steps;
-        let pending = self.pending.take();
-        let accepted = std::mem::replace(&mut self.seen, steps) != steps;
-        if let Some(motion) = pending.filter(|_| accepted) {
-            self.motion = motion;
-        }
+        self.pending = None;
         let equations = stage.assembler().free().len();
         if self.motion.mass.is_empty() || self.motion.mass.len() != equations {
             self.motion = Self::start(stage)?;
@@ -239,6 +232,12 @@ impl Driver for Explicit {
         })
     }
 
+    fn accepted(&mut self) {
+        if let Some(motion) = self.pending.take() {
+            self.motion = motion;
+        }
+    }
+
     fn memory(&self) -> Vec<f64> {
         let Motion {
             mass,
@@ -246,7 +245,7 @@ impl Driver for Explicit {
             velocity,
             work,
             passed,
-        } = self.pending.as_ref().unwrap_or(&self.motion);
+        } = &self.motion;
         let scalars = [*omega, *work, *passed];
         scalars
             .iter()

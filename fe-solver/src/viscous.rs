@@ -28,7 +28,6 @@ pub struct Viscous {
     total: [f64; 2],
     /// The same of the last attempt, not yet known to be accepted.
     pending: [f64; 2],
-    seen: usize,
 }
 
 impl Viscous {
@@ -44,7 +43,6 @@ impl Viscous {
             newton: NewtonRaphson::new(settings),
             total: [0.0; 2],
             pending: [0.0; 2],
-            seen: 0,
         })
     }
 
@@ -72,11 +70,6 @@ impl Driver for Viscous {
         request: Request,
         log: &mut IterationLog<'_>,
     ) -> Result<Attempt, SolverError> {
-        let steps = stage.counters().steps;
-        if std::mem::replace(&mut self.seen, steps) != steps {
-            self.total = self.sums();
-        }
-        self.pending = [0.0; 2];
         let relaxation = request.length / (self.viscosity + request.length);
         let mut attempt = self.newton.relaxed(relaxation, stage, request, log)?;
         let u = &attempt.displacement;
@@ -98,8 +91,12 @@ impl Driver for Viscous {
         Ok(attempt)
     }
 
+    fn accepted(&mut self) {
+        (self.total, self.pending) = (self.sums(), [0.0; 2]);
+    }
+
     fn memory(&self) -> Vec<f64> {
-        self.sums().to_vec()
+        self.total.to_vec()
     }
 
     fn recall(&mut self, memory: &[f64]) {

@@ -216,6 +216,7 @@ impl StepControl {
                         }
                         attempt.converged = false;
                     }
+                    driver.accepted();
                     let entry = Entry {
                         length,
                         taken: this,
