@@ -34,7 +34,6 @@ impl Case {
         match (self.with_sheets, self.scaled) {
             (Some(other), _) => format!("{options}, with sheets `{other}`"),
             (None, Some((property, factor))) => format!("`{property}` times {factor}"),
-            (None, None) if self.options.is_empty() => String::new(),
             (None, None) => options,
         }
     }
