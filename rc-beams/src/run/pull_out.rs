@@ -60,15 +60,16 @@ pub(super) fn error(model: &Model, sheets: &SheetRecord) -> Result<Option<BondEr
     });
     let size = size.fold(0.0, f64::max);
     let membrane = first.laminate.stiffness_along(ply.angle_deg) * first.laminate.thickness_mm();
-    let exact = PullOut::new(sheets.curve, membrane)
-        .map_err(|e| solver(BuildError::from(e).into()))?
-        .ultimate();
+    let closed =
+        PullOut::new(sheets.curve, membrane).map_err(|e| solver(BuildError::from(e).into()))?;
+    let exact = closed.ultimate();
     let found = strip(size, &sheets.bond, first).map_err(solver)?;
     Ok(Some(BondError {
         element_mm: size,
         force_n_per_mm: found,
         exact_n_per_mm: exact,
         relative: found / exact - 1.0,
+        resolving_mm: closed.longest_element(),
     }))
 }
 

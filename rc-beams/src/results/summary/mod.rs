@@ -71,6 +71,8 @@ pub struct BondError {
     pub exact_n_per_mm: f64,
     /// Relative error.
     pub relative: f64,
+    /// Longest element (mm) that resolves the softening of the bond, a third of its length.
+    pub resolving_mm: f64,
 }
 
 impl std::fmt::Display for BondError {
@@ -82,7 +84,15 @@ impl std::fmt::Display for BondError {
             self.force_n_per_mm,
             100.0 * self.relative,
             self.exact_n_per_mm
-        )
+        )?;
+        if self.element_mm > self.resolving_mm {
+            let (most, over) = (self.resolving_mm, self.element_mm / self.resolving_mm);
+            write!(
+                f,
+                "; they are {over:.1} times as long as resolves the softening of the bond, {most:.1} mm: `--mesh` takes more"
+            )?;
+        }
+        Ok(())
     }
 }
 
