@@ -67,7 +67,7 @@ impl ModelSettings {
             preset,
             mesh: default_mesh(specimen, preset),
             integration: HexRule::Irons,
-            law: Law::FixedCrack,
+            law: preset.law(),
             dowel: true,
             tension_softening: TensionSoftening::Exponential,
             shear_transfer: ShearTransfer::Interlock {
@@ -88,7 +88,12 @@ impl ModelSettings {
             strip_bond,
         };
         match preset {
-            Preset::Physical | Preset::Reference => plain,
+            Preset::Physical => plain,
+            Preset::Reference => Self {
+                integration: HexRule::Reduced,
+                dowel: false,
+                ..plain
+            },
             Preset::Characteristic => Self {
                 integration: HexRule::Reduced,
                 dowel: false,

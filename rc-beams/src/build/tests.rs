@@ -9,7 +9,7 @@ use fe_solver::secant::SecantAnderson;
 use fe_solver::stage::Stage;
 
 use super::{BarKind, Beam, BuildError, ModelSettings};
-use crate::options::{MeshSize, Preset};
+use crate::options::{Law, MeshSize, Preset};
 use crate::spec::{BUILTIN, Specimen, read};
 
 fn specimen(name: &str) -> Specimen {
@@ -161,6 +161,7 @@ fn the_reference_reads_strengths_as_its_source_does() {
         assert!((fcm - mean).abs() < 1e-12, "{preset:?} {fcm}");
     }
     let settings = ModelSettings::new(Preset::Reference, &specimen);
+    assert_eq!((settings.law, settings.dowel), (Law::Reference, false));
     let fctm = super::laws::tensile_strength(&specimen, &settings).unwrap();
     assert!((fctm - 2.733_231).abs() < 1e-6, "{fctm}");
 }

@@ -10,13 +10,23 @@ pub enum Preset {
     /// The reported strength is the mean; 14-point integration, dowel action of the bars; sheets as given
     #[default]
     Physical,
-    /// As physical, but with strength and sheets as the reference reads them: mean of 8 MPa more than reported, fibres of the
-    /// soffit along the beam, shear modulus E/2, bond of strips as under a sheet
+    /// The model of the reference: its law of the concrete, mean strength of 8 MPa more than reported, reduced integration, no
+    /// dowel action, fibres of the soffit along the beam, shear modulus of the sheets E/2, bond of strips as under a sheet
     Reference,
     /// The reported strength is characteristic (mean: 8 MPa more); reduced integration, no dowel action, no interlock,
     /// no compression softening, linear softening in tension, half the band width, axes of cracks fixed at the onset, a tenfold floor
     /// of the shear of open cracks, bond of strips as under a sheet
     Characteristic,
+}
+
+impl Preset {
+    /// Its law of the concrete.
+    pub const fn law(self) -> Law {
+        match self {
+            Self::Reference => Law::Reference,
+            Self::Physical | Self::Characteristic => Law::FixedCrack,
+        }
+    }
 }
 
 /// Integration points of the concrete elements.
@@ -32,11 +42,10 @@ pub enum Integration {
 }
 
 /// Law of the concrete.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Law {
     /// Orthogonal cracks that follow the strain, then stay fixed; crack band, interlock, struts weakened by cracks
-    #[default]
     FixedCrack,
     /// The law of the reference: Ottosen surface, fixed cracks
     Reference,

@@ -37,9 +37,9 @@ pub struct RunOptions {
     #[arg(long, value_enum)]
     pub integration: Option<Integration>,
 
-    /// Law of the concrete
-    #[arg(long, value_enum, default_value_t)]
-    pub law: Law,
+    /// Law of the concrete; without it, that of the preset
+    #[arg(long, value_enum)]
+    pub law: Option<Law>,
 
     /// Ingredients of the fixed-crack law
     #[command(flatten)]
@@ -121,6 +121,11 @@ impl RunOptions {
         let mut own = self.by_name();
         own.retain(|name, value| defaults.get(name) != Some(value));
         own
+    }
+
+    /// The law of the concrete.
+    pub fn law(&self) -> Law {
+        self.law.unwrap_or_else(|| self.preset.law())
     }
 
     fn by_name(&self) -> Map<String, Value> {

@@ -85,7 +85,7 @@ fn too_few_points(settings: &ModelSettings) -> Option<String> {
     (mesh.nz.is_none() && settings.integration == HexRule::Reduced).then(|| {
         format!(
             "--mesh {mesh} is uniform across the width, for which reduced integration (--integration reduced, or \
-             --preset characteristic without another) has too few points: give --mesh {mesh}x1, or --integration irons"
+             that of the preset) has too few points: give --mesh {mesh}x1, or --integration irons"
         )
     })
 }
@@ -108,8 +108,9 @@ pub(crate) fn warnings(specimens: &[Specimen], options: &RunOptions) -> Vec<Stri
     let crowded = (threads > cores).then(|| {
         format!("--threads {threads} is slower than one per core, of which there are {cores}")
     });
-    let law = name(&options.law);
-    let stiff = (options.law != Law::FixedCrack).then(|| {
+    let law = options.law();
+    let stiff = (law != Law::FixedCrack).then(|| {
+        let law = name(&law);
         format!("--law {law} takes Young's modulus of the Model Code for the strength, not concrete.young_mpa of the specimens")
     });
     idle.chain(stiff).chain(crowded).collect()

@@ -35,7 +35,7 @@ const KEEP_FACTOR: f64 = 3.0;
 /// How a specimen is modelled.
 pub(super) fn settings(options: &RunOptions, specimen: &Specimen) -> ModelSettings {
     let mut settings = ModelSettings::new(options.preset, specimen).with_cracks(&options.cracks);
-    settings.law = options.law;
+    settings.law = options.law();
     settings.bond = options.bond;
     settings.soffit_fibre = options.soffit_fibre.unwrap_or(settings.soffit_fibre);
     settings.strip_bond = options.strip_bond.unwrap_or(settings.strip_bond);

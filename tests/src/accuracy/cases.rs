@@ -95,18 +95,13 @@ pub const TWICE: Case = Case {
 /// The path without iteration.
 pub const MOTION: Case = case("explicit", "slow motion", "--driver explicit", &ALL);
 
-/// The law, the sheets and the mesh of the source.
-pub const SOURCE: Case = Case {
-    with_sheets: Some(
-        "--preset characteristic --law reference --mesh 60x4x1 --soffit-fibre along --sheet-shear half --strip-bond sheet",
-    ),
-    ..case(
-        "source",
-        "law of the source",
-        "--preset characteristic --law reference --mesh 60x4x1",
-        KNOWN,
-    )
-};
+/// The model of the source, on its mesh.
+pub const SOURCE: Case = case(
+    "source",
+    "law of the source",
+    "--preset reference --mesh 60x4x1",
+    KNOWN,
+);
 
 /// Numerical settings.
 pub const NUMERICS: [Case; 10] = [

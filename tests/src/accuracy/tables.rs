@@ -131,14 +131,17 @@ pub fn statistics(outcomes: &Outcomes) -> String {
     let errors = errors(outcomes, DEFAULT.name);
     let ratios: Vec<f64> = errors.iter().map(|e| 1.0 + e).collect();
     let [ratio, variation] = mean_and_variation(&ratios);
+    let inverse: Vec<f64> = ratios.iter().map(|r| r.recip()).collect();
+    let [test, scatter] = mean_and_variation(&inverse);
     let worst = errors.iter().fold(0.0_f64, |a, e| a.max(e.abs()));
     format!(
         "Of {} beams whose tests are known: mean |error| {:.1} %, worst {:.0} %; mean of model over test {ratio:.3}, coefficient of \
-         variation {:.1} %.\n",
+         variation {:.1} %; of test over model {test:.3} and {:.1} %.\n",
         errors.len(),
         100.0 * mean(&errors, f64::abs),
         100.0 * worst,
-        100.0 * variation
+        100.0 * variation,
+        100.0 * scatter
     )
 }
 
