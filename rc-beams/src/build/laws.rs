@@ -43,12 +43,15 @@ fn properties(
     let strength = reported.reported_strength_mpa.get();
     let mut read = match settings.preset {
         Preset::Physical => ConcreteScalars::from_mean(strength)?,
-        Preset::Reference => ConcreteScalars::from_characteristic(strength)?,
-        Preset::Characteristic => ConcreteScalars {
-            fctm_mpa: reported.reported_tensile_mpa.get(),
-            ..ConcreteScalars::from_characteristic(strength)?
-        },
+        Preset::Reference | Preset::Characteristic => {
+            ConcreteScalars::from_characteristic(strength)?
+        }
     };
+    if let Some(tensile) = &reported.reported_tensile_mpa
+        && settings.preset != Preset::Reference
+    {
+        read.fctm_mpa = tensile.get();
+    }
     read.fctm_mpa *= settings.tensile_strength_factor;
     read.poisson = reported.poisson.get();
     Ok(read)

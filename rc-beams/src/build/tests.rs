@@ -165,3 +165,15 @@ fn the_reference_reads_strengths_as_its_source_does() {
     let fctm = super::laws::tensile_strength(&specimen, &settings).unwrap();
     assert!((fctm - 2.733_231).abs() < 1e-6, "{fctm}");
 }
+
+/// The tensile strength is that of the report, 2.7 MPa of A-SO3-1, and without one that of fib Model Code 2010, 5.1.5.1, for
+/// fck = 27.5 - 8: 2.173423 MPa.
+#[test]
+fn a_tensile_strength_that_is_reported_counts() {
+    let mut specimen = specimen("A-SO3-1");
+    let settings = ModelSettings::new(Preset::Physical, &specimen);
+    let fctm = |specimen: &Specimen| super::laws::tensile_strength(specimen, &settings).unwrap();
+    assert_eq!(fctm(&specimen), 2.7);
+    specimen.concrete.reported_tensile_mpa = None;
+    assert!((fctm(&specimen) - 2.173_423).abs() < 1e-6);
+}

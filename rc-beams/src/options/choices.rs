@@ -7,7 +7,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Preset {
-    /// The reported strength is the mean; 14-point integration, dowel action of the bars; sheets as given
+    /// The reported strengths are means; 14-point integration, dowel action of the bars; sheets as given
     #[default]
     Physical,
     /// The model of the reference: its law of the concrete, mean strength of 8 MPa more than reported, reduced integration, no

@@ -81,8 +81,9 @@ pub struct Beam {
 pub struct Concrete {
     /// Reported compressive strength (MPa).
     pub reported_strength_mpa: ConcreteStrength,
-    /// Reported tensile strength (MPa).
-    pub reported_tensile_mpa: TensileStrength,
+    /// Reported tensile strength (MPa); without one, it follows from the compressive strength.
+    #[serde(default)]
+    pub reported_tensile_mpa: Option<TensileStrength>,
     /// Young's modulus (MPa).
     pub young_mpa: ConcreteModulus,
     /// Poisson's ratio.

@@ -113,6 +113,25 @@ const CASES: &[Case] = &[
             "give the modulus at the origin",
         ],
     ),
+    // No convex surface of onset goes through both strengths.
+    (
+        "reported_tensile_mpa: 2.7",
+        "reported_tensile_mpa: 9",
+        "9",
+        &[
+            "concrete.reported_tensile_mpa: 9 MPa does not go with the compressive strength; allowed: up to",
+            "leave it out for that of the Model Code, 2.17 MPa",
+        ],
+    ),
+    (
+        "reported_tensile_mpa: 2.7",
+        "reported_tensile_mpa: 0.4",
+        "0.4",
+        &[
+            "concrete.reported_tensile_mpa: 0.4 MPa does not go",
+            "allowed: from",
+        ],
+    ),
     // Unknown field.
     (
         "reported_strength_mpa: 27.5",

@@ -1,15 +1,12 @@
 //! Checks between the fields of a specimen: what no number tells alone.
 
+mod concrete;
 mod reinforcement;
 mod sheets;
 mod supports;
 
 use std::fmt::Display;
 use std::ops::RangeInclusive;
-
-use fe_core::material::MaterialError;
-use fe_materials::concrete::ConcreteScalars;
-use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 
 use super::specimen::Specimen;
 use crate::column::slug;
@@ -136,39 +133,6 @@ impl Checks<'_> {
 
     fn half_width(&self) -> f64 {
         self.specimen.half_width_mm()
-    }
-
-    /// The concrete is stiffer than the secant to its strength, and of a strength for which the bond of sheets is known.
-    fn concrete(&mut self) {
-        let concrete = &self.specimen.concrete;
-        let strength = concrete.reported_strength_mpa.get();
-        // The bond reads it as the characteristic one.
-        let known = ConcreteScalars::from_characteristic(strength).is_ok();
-        if self.specimen.sheets.is_some() && !known {
-            self.report(
-                "concrete.reported_strength_mpa",
-                format!("{strength} MPa, with sheets, whose bond counts with 8 MPa more; allowed: 16 to 60 MPa"),
-                "leave the sheets out, or give a lower strength",
-            );
-        }
-        let Ok(mean) = ConcreteScalars::from_mean(strength) else {
-            return;
-        };
-        let young = concrete.young_mpa.get();
-        let law = FixedCrackParameters::from_strength(mean.fcm_mpa, mean.fctm_mpa, young);
-        if let Err(MaterialError::Parameter {
-            parameter: "young_mpa",
-            value,
-            allowed,
-            ..
-        }) = FixedCrack::new(law, None)
-        {
-            self.report(
-                "concrete.young_mpa",
-                format!("{value} MPa is too soft for this strength; allowed: {allowed}"),
-                "give the modulus at the origin, not a secant, or a lower strength",
-            );
-        }
     }
 
     /// The name is that of a folder.
