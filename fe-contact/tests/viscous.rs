@@ -8,6 +8,7 @@ use std::sync::Arc;
 use fe_contact::envelope::{Bilinear, LuJoint};
 use fe_contact::{BondSettings, Interface, MixedMode, MixedModeParameters, SlipDamage, Viscous};
 use fe_core::material::{Material, MaterialError, Operator, PointContext};
+use fe_core::testing::{MaterialCheck, check_material};
 use nalgebra::Vector3;
 
 fn bond() -> Bilinear {
@@ -76,6 +77,20 @@ fn tangent_is_that_of_the_lagging_damage() {
     let up = at(0.12 + h, &state, &mut trial).stress[0];
     let down = at(0.12 - h, &state, &mut trial).stress[0];
     assert!((tangent - (up - down) / (2.0 * h)).abs() < 1e-5);
+}
+
+/// Contract of a law on 10^4 random steps: repeatable, tangent to 1e-6, secant positive definite. Its stress changes at a held jump,
+/// which is not checked.
+#[test]
+fn conformance() {
+    let check = MaterialCheck {
+        paths: 100,
+        steps: 100,
+        amplitude: vec![0.3, 0.3, 0.02],
+        drift_tolerance: f64::INFINITY,
+        ..MaterialCheck::new(0.3)
+    };
+    check_material(&law(0.3).unwrap(), &check).unwrap();
 }
 
 #[test]

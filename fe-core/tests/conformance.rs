@@ -23,7 +23,7 @@ fn failure(flaw: Flaw) -> CheckFailure {
 #[test]
 fn a_sound_law_passes() {
     let report = check_material(&Damage(Flaw::None), &check()).unwrap();
-    assert_eq!(report.steps, 2000);
+    assert_eq!(report.steps, 10_000);
     assert!(report.kinks == 0, "{report:?}");
     assert!(
         report.worst_tangent > 0.0 && report.worst_tangent < 1e-8,

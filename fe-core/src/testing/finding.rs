@@ -67,7 +67,13 @@ pub fn between(what: &str, found: f64, [low, high]: [f64; 2]) {
 /// If it does: for tests.
 #[track_caller]
 pub fn below(what: &str, found: f64, limit: f64) {
-    tell(what, &size(found), &format!("< {}", plain(limit)));
+    let goal = format!("< {}", plain(limit));
+    let size = if beyond(found, limit) {
+        goal.clone()
+    } else {
+        size(found)
+    };
+    tell(what, &size, &goal);
     assert!(found <= limit, "{what}: {found:e} exceeds {limit:e}");
 }
 
@@ -152,6 +158,11 @@ fn size(x: f64) -> String {
     }
 }
 
+/// Whether a deviation within its limit would be told by a power of ten beyond it.
+fn beyond(x: f64, limit: f64) -> bool {
+    x > 0.0 && x < 1e-8 && x <= limit && 10.0_f64.powi(order(x) + 1) > limit
+}
+
 #[cfg(test)]
 mod tests {
     //! Protects what the verification manual shows, and that a miss fails.
@@ -172,6 +183,16 @@ mod tests {
             ["0.3", "7", "1e-12", "200000"]
         );
         assert_eq!([0.0, 3e-14, 0.004_37].map(size), ["0", "< 1e-13", "0.0044"]);
+        let near = [
+            (1.1e-14, 2e-14),
+            (3e-14, 2e-14),
+            (3e-14, 1e-12),
+            (0.0, 1e-12),
+        ];
+        assert_eq!(
+            near.map(|(x, limit)| beyond(x, limit)),
+            [true, false, false, false]
+        );
     }
 
     #[test]

@@ -98,12 +98,13 @@ fn impossible_parameters_and_bands_are_refused() {
     assert!(law(0.2).admit(&PointContext::new(1.001 * limit)).is_err());
 }
 
-/// Benchmark MAT-04: the same in rotated axes, sound, with axes that follow and with fixed ones.
+/// Benchmark MAT-04: the same in rotated axes, sound, with axes that follow and with fixed ones, on 15 000 random paths. Target:
+/// 2e-14 of the largest stress.
 #[test]
 fn isotropic() {
     let mut worst = Worst::new(
         "MAT-04: cracking law, anisotropy over the largest stress",
-        2e-12,
+        2e-14,
     );
     for fixing_share in [FIXING_SHARE, 1.0] {
         for amplitude in [1e-4, 1e-3, 1e-2] {
@@ -111,14 +112,19 @@ fn isotropic() {
                 fixing_share,
                 ..parameters()
             };
-            let report = check_isotropy(&build(p), &MaterialCheck::new(amplitude)).unwrap();
+            let check = MaterialCheck {
+                paths: 2500,
+                steps: 10,
+                ..MaterialCheck::new(amplitude)
+            };
+            let report = check_isotropy(&build(p), &check).unwrap();
             worst.see(report.worst, (fixing_share, amplitude));
         }
     }
     worst.tell();
 }
 
-/// Benchmark MAT-04, contract of a law on 10^4 random paths: repeatable, latched, tangent to 1e-6, secant positive definite,
+/// Benchmark MAT-04, contract of a law on 10^4 random paths and more: repeatable, latched, tangent to 1e-6, secant positive definite,
 /// and no energy created once cracked.
 #[test]
 fn conforms() {
