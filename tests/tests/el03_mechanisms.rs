@@ -10,7 +10,7 @@ use fe_core::dof::Dof;
 use fe_core::kinematics::{PlaneStress, Solid};
 use fe_core::material::Material;
 use fe_core::model::{Conditions, Model};
-use fe_core::testing::{between, counted, within};
+use fe_core::testing::{counted, within, within_share};
 use fe_elements::{HexRule, QuadRule};
 use fe_materials::Elastic;
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
@@ -215,8 +215,8 @@ fn a_column_with_mechanisms_is_refused_by_node_and_dof() {
 }
 
 /// EL-03c: with 8 points only the neighbours hold the mechanism, so its energy falls in proportion to their stiffness;
-/// with 27 points the column keeps its own share. (The published energies, 0.719 of the residual stiffness and 0.963
-/// falling to 0.099, belong to a normalisation that is not given.)
+/// with 27 points and with 14, the default, the column keeps its own share. (The published energies, 0.719 of the residual stiffness
+/// and 0.963 falling to 0.099, 0.103 of it, belong to a mode and a mesh that are not given: the shares are what was measured.)
 #[test]
 fn cracked_neighbours_release_the_mechanism_of_a_column() {
     let ratio = |rule| {
@@ -229,11 +229,10 @@ fn cracked_neighbours_release_the_mechanism_of_a_column() {
         1.0,
         1e-6,
     );
-    between(
-        "EL-03c: energy that is left, Full",
-        ratio(HexRule::Full),
-        [0.05, 1.0],
-    );
+    for (rule, left) in [(HexRule::Full, 0.0618), (HexRule::Irons, 0.0519)] {
+        let what = format!("EL-03c: energy that is left, {rule:?}");
+        within_share(&what, ratio(rule), left, 0.01);
+    }
 }
 
 /// A floating model is refused with the DOF that is free, however fine the mesh; the same model held is solved.
