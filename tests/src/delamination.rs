@@ -30,16 +30,19 @@ pub const ENERGY: f64 = 0.28;
 /// Half of the span L of the end-notched flexure specimen (mm), loaded in the middle.
 pub const HALF_SPAN: f64 = 50.0;
 
-/// Delamination in both modes.
+/// Shear strength (MPa) of the delamination where nothing else is said.
+pub const SHEAR_STRENGTH: f64 = 40.0;
+
+/// Delamination in both modes, of a shear strength (MPa).
 ///
 /// # Panics
 ///
-/// Never for these numbers.
-pub fn delamination() -> Arc<dyn Material<Interface>> {
+/// For a strength that is not positive.
+pub fn delamination(shear_strength_mpa: f64) -> Arc<dyn Material<Interface>> {
     let law = MixedMode::new(MixedModeParameters {
         stiffness_mpa_per_mm: 1e5,
         normal_strength_mpa: 15.0,
-        shear_strength_mpa: 40.0,
+        shear_strength_mpa,
         mode_1_energy_n_per_mm: ENERGY,
         mode_2_energy_n_per_mm: ENERGY,
         exponent: 2.0,
@@ -142,10 +145,14 @@ pub fn enf(a: f64) -> [f64; 2] {
 /// # Panics
 ///
 /// Never for lengths that are positive.
-pub fn notched(notch: f64) -> (Model, Conditions, Vec<NodeId>) {
+pub fn notched(notch: f64, shear_strength_mpa: f64) -> (Model, Conditions, Vec<NodeId>) {
     let [left, right] = [0.0, 2.0 * HALF_SPAN];
     let model = arms(&graded(notch, 52.0, right), |x| {
-        Some(if x > notch { delamination() } else { slides() })
+        Some(if x > notch {
+            delamination(shear_strength_mpa)
+        } else {
+            slides()
+        })
     });
     let mut conditions = Conditions::new(&model);
     hold(&model, &mut conditions, &[Dof::Uy], |_| true).expect("a specimen");
@@ -170,6 +177,16 @@ pub fn falling(path: &Path) -> &[[f64; 2]] {
     &points[peak..]
 }
 
+/// Largest displacement (mm) up to where the path is at its smallest from the largest force on.
+pub fn upper_turn(path: &Path) -> f64 {
+    let falling = falling(path);
+    let least = least(falling);
+    let until =
+        path.points.len() - falling.len() + falling.iter().position(|p| p[1] == least).unwrap_or(0);
+    let before = path.points.iter().take(until + 1);
+    before.map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max)
+}
+
 /// Smallest displacement (mm) of some points.
 pub fn least(points: &[[f64; 2]]) -> f64 {
     points.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min)
@@ -188,8 +205,8 @@ pub fn turned(path: &Path) -> bool {
 /// # Panics
 ///
 /// Never for lengths that are positive.
-pub fn under_force(notch: f64) -> (Model, Conditions) {
-    let (model, mut conditions, loaded) = notched(notch);
+pub fn under_force(notch: f64, shear_strength_mpa: f64) -> (Model, Conditions) {
+    let (model, mut conditions, loaded) = notched(notch, shear_strength_mpa);
     for node in loaded {
         let y = model.mesh().nodes()[node][1];
         let corner = y == 0.0 || y == B;

@@ -1,5 +1,6 @@
 //! Paths under imposed displacements.
 
+use fe_core::energy::{Change, Ledger};
 use fe_core::model::{Conditions, Model};
 use fe_core::state::StateStore;
 use fe_solver::control::StepControl;
@@ -31,6 +32,8 @@ pub struct Driven {
     pub marked: usize,
     /// Negative pivots at every step; none where they were not counted.
     pub negative: Vec<Option<usize>>,
+    /// Energies of every step, by the trapezoidal rule.
+    pub changes: Vec<Change>,
     /// Viscous work over the work, of drivers whose laws lag behind.
     pub viscous: Option<f64>,
     /// Why it did not arrive.
@@ -53,6 +56,7 @@ impl Recorder for Driven {
     fn step(&mut self, view: &StepView<'_>) -> std::io::Result<Continue> {
         self.marked += usize::from(marked(view, self.criterion));
         self.negative.push(view.negative_pivots);
+        self.changes.push(view.stage.ledger().last_change());
         self.viscous = view.viscous;
         self.iterations.push(std::mem::take(&mut self.under_way));
         let at = self.from + self.sign * view.lambda;
@@ -126,6 +130,22 @@ impl Driven {
         falls.fold(0.0, f64::max)
     }
 
+    /// Work (N mm) on all elements.
+    pub fn worked(&self) -> f64 {
+        self.changes.iter().map(|change| change.work).sum()
+    }
+
+    /// Energy (N mm) that all elements have dissipated at the end, whatever they unload along.
+    pub fn spent(&self) -> f64 {
+        self.changes.iter().map(Change::dissipated).sum()
+    }
+
+    /// Largest energy (N mm) that all elements created in one step.
+    pub fn gained(&self) -> f64 {
+        let gains = self.changes.iter().map(|change| -change.dissipated());
+        gains.fold(0.0, f64::max)
+    }
+
     /// Largest number of negative pivots, if they were counted at every step.
     pub fn most_negative(&self) -> Option<usize> {
         let counted: Option<Vec<usize>> = self.negative.iter().copied().collect();
@@ -159,6 +179,7 @@ pub fn drive(
 ) -> Result<Driven, SolverError> {
     let mut state = StateStore::new(model.elements());
     let mut u = vec![0.0; model.dofs().len()];
+    let mut ledger = Ledger::default();
     let mut driven = Driven::holding(criterion);
     for leg in legs {
         let way = leg.to - driven.from;
@@ -173,9 +194,10 @@ pub fn drive(
             shortest: leg.step / 1024.0,
             ..StepControl::new(leg.step, way.abs())
         };
-        let mut stage = Stage::new(model, turned, &mut state, u.clone())?;
+        let mut stage = Stage::new(model, turned, &mut state, u.clone())?.with_ledger(ledger);
         let arrived = driven.lead(&control, &mut stage, driver);
         u = stage.displacement().to_vec();
+        ledger = stage.into_ledger();
         if !arrived {
             break;
         }

@@ -8,7 +8,7 @@
 
 use fe_core::dof::Dof;
 use fe_core::model::{Conditions, Model};
-use fe_core::testing::{Worst, curve, within_share};
+use fe_core::testing::{Worst, curve, within, within_share};
 use fe_solver::automatic::Automatic;
 use fe_solver::control::StepControl;
 use fe_solver::driver::Driver;
@@ -17,7 +17,8 @@ use fe_solver::recorder::StepView;
 use fe_solver::secant::SecantAnderson;
 use fe_tests::conditions::hold;
 use fe_tests::delamination::{
-    H, arms, dcb, delamination, enf, falling, graded, least, notched, turned, under_force,
+    H, SHEAR_STRENGTH, arms, dcb, delamination, enf, falling, graded, least, notched, turned,
+    under_force, upper_turn,
 };
 use fe_tests::follow::{Path, follow, steps};
 use fe_tests::mesh::nodes_where;
@@ -77,28 +78,22 @@ fn beam_theory(w: f64, low: f64, high: f64, formulas: impl Fn(f64) -> [f64; 2]) 
     formulas(low)[0]
 }
 
-/// Protects the closed forms that the others are held against. Target: the printed digits.
+/// Protects the closed forms that the others are held against. Target: the printed figures, within one unit of their last digit.
 #[test]
 fn formulas() {
-    for (name, found, target) in [
-        ("DCB, a = 30", dcb(30.0), [64.807, 1.7282]),
-        ("DCB, a = 40", dcb(40.0), [48.606, 3.0724]),
-        ("ENF, a = 30", enf(30.0), [299.3, 1.5290]),
-        ("ENF, a = 34.67", enf(34.67), [259.0, 1.4990]),
-        ("ENF, a = 50", enf(50.0), [179.6, 1.7323]),
+    for (name, found, target, digit) in [
+        ("DCB, a = 30", dcb(30.0), [64.807, 1.7282], 1e-3),
+        ("DCB, a = 40", dcb(40.0), [48.606, 3.0724], 1e-3),
+        ("DCB, a = 60", dcb(60.0), [32.404, 6.9128], 1e-3),
+        ("ENF, a = 20", enf(20.0), [449.0, 1.8985], 0.1),
+        ("ENF, a = 30", enf(30.0), [299.3, 1.5290], 0.1),
+        ("ENF, a = 34.67", enf(34.67), [259.0, 1.4990], 0.1),
+        ("ENF, a = 50", enf(50.0), [179.6, 1.7323], 0.1),
     ] {
-        within_share(
-            &format!("formula of {name}, load (N)"),
-            found[0],
-            target[0],
-            3e-4,
-        );
-        within_share(
-            &format!("formula of {name}, displacement (mm)"),
-            found[1],
-            target[1],
-            3e-4,
-        );
+        let what = format!("formula of {name}, load (N)");
+        within(&what, found[0], target[0], digit);
+        let what = format!("formula of {name}, displacement (mm)");
+        within(&what, found[1], target[1], 1e-4);
     }
 }
 
@@ -106,7 +101,7 @@ fn formulas() {
 #[test]
 fn double_cantilever_beam() {
     let x = graded(30.0, 45.0, 80.0);
-    let model = arms(&x, |x| (x > 30.0).then(delamination));
+    let model = arms(&x, |x| (x > 30.0).then(|| delamination(SHEAR_STRENGTH)));
     let mut conditions = Conditions::new(&model);
     hold(&model, &mut conditions, &[Dof::Uy], |_| true).unwrap();
     hold(&model, &mut conditions, &[Dof::Ux, Dof::Uz], |x| {
@@ -133,7 +128,7 @@ fn double_cantilever_beam() {
 /// 41 to 46 mm, within 1.2 %.
 #[test]
 fn end_notched_flexure() {
-    let (model, mut conditions, loaded) = notched(38.0);
+    let (model, mut conditions, loaded) = notched(38.0, SHEAR_STRENGTH);
     for node in loaded {
         conditions.prescribe(&model, node, Dof::Uz, -1.0).unwrap();
     }
@@ -166,7 +161,7 @@ fn longer_notches_snap_back_less_or_not_at_all() {
     let short: fn(&Path) -> bool = |path| fallen_to(path, 38.0);
     let long: fn(&Path) -> bool = |path| fallen_to(path, 47.0);
     for (notch, formed, arrived) in [(30.0, 33.0, short), (40.0, 43.0, long)] {
-        let (model, conditions) = under_force(notch);
+        let (model, conditions) = under_force(notch, SHEAR_STRENGTH);
         for step in [0.05, 0.1] {
             let driver = Automatic::new(NewtonSettings::default());
             let legs: Vec<(_, Box<dyn Driver>)> = vec![(steps(step, 1e-4), Box::new(driver))];
@@ -201,7 +196,7 @@ fn longer_notches_snap_back_less_or_not_at_all() {
 /// curve of beam theory, within 1.2 %.
 #[test]
 fn end_notched_flexure_snaps_back() {
-    let (model, conditions) = under_force(20.0);
+    let (model, conditions) = under_force(20.0, SHEAR_STRENGTH);
     for step in [0.05, 0.1, 0.2] {
         let driver = Automatic::new(NewtonSettings::default());
         let legs: Vec<(_, Box<dyn Driver>)> = vec![(steps(step, 1e-4), Box::new(driver))];
@@ -224,5 +219,27 @@ fn end_notched_flexure_snaps_back() {
         if step == 0.05 {
             curve("ENF, 20 mm", thinned(&path.points));
         }
+    }
+}
+
+/// STAB-21: why the displacement of the notch of 20 mm turns back before the 1.8985 mm of beam theory: the cohesive zone gives way
+/// before the crack grows, the earlier the lower its shear strength. Targets: 1.622, 1.738 and 1.787 mm with 20, 40 and
+/// 60 MPa, within 0.5 %, which is what was measured; the distance from beam theory falls from 15 % to 6 %. (With 120 MPa the
+/// turn is at 1.887 mm; elements of 1 mm are too long then for the path to be followed on.)
+#[test]
+fn a_stronger_interface_turns_back_nearer_to_beam_theory() {
+    let mut last = f64::INFINITY;
+    for (strength, target) in [(20.0, 1.622), (SHEAR_STRENGTH, 1.738), (60.0, 1.787)] {
+        let (model, conditions) = under_force(20.0, strength);
+        let driver = Automatic::new(NewtonSettings::default());
+        let legs: Vec<(_, Box<dyn Driver>)> = vec![(steps(0.1, 1e-4), Box::new(driver))];
+        let path = follow((&model, conditions), legs, turned).unwrap();
+        assert!(path.stopped.is_none(), "{strength}: {:?}", path.stopped);
+        let found = upper_turn(&path);
+        let what = format!("displacement turns back from (mm), {strength} MPa");
+        within_share(&what, found, target, 5e-3);
+        let miss = 1.0 - found / enf(20.0)[1];
+        assert!(miss > 0.0 && miss < 0.75 * last, "{strength}: {miss}");
+        last = miss;
     }
 }

@@ -20,6 +20,8 @@ pub struct Figure {
     pub found: f64,
     /// What it is held against.
     pub target: Target,
+    /// What the catalogue has, of a target that is what was measured, with a margin; none of a target that is known.
+    pub measured: Option<&'static str>,
 }
 
 impl Figure {
@@ -43,6 +45,16 @@ impl Figure {
             name: name.into(),
             found,
             target,
+            measured: None,
+        }
+    }
+
+    /// The same whose target is what was measured, beside what the catalogue has.
+    #[must_use]
+    pub fn measured(self, catalogue: &'static str) -> Self {
+        Self {
+            measured: Some(catalogue),
+            ..self
         }
     }
 

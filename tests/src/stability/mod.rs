@@ -14,7 +14,7 @@ pub use chart::chart;
 pub use figures::{Figure, Target};
 pub use method::Method;
 pub use paths::{Scene, Steps};
-pub use scenarios::{LONG, LONGER, SCENARIOS, STRIP};
+pub use scenarios::{LONG, LONGER, SCENARIOS, STRIP, sheared};
 
 use fe_solver::stage::Counters;
 
@@ -30,6 +30,8 @@ pub struct Scenario {
     pub id: &'static str,
     /// What happens.
     pub title: &'static str,
+    /// What it leaves out of the catalogue, or holds otherwise; empty where there is nothing to say.
+    pub remark: &'static str,
     /// Lengths of its steps over the usual ones at which it is run; empty where there are no steps.
     pub coarse: &'static [f64],
     /// Runs it by a method; none where the method does not apply. What depends on no method is run by the automatic one.

@@ -24,6 +24,7 @@ mod stab24_long_bar;
 mod stab25_viscosity;
 
 pub use stab01_strip::STRIP;
+pub use stab14_closing_crack::sheared;
 pub use stab24_long_bar::{LONG, LONGER};
 
 use super::Scenario;

@@ -30,6 +30,7 @@ pub const STRIP: Scene = Scene {
 pub const SCENARIO: Scenario = Scenario {
     id: "STAB-01 to -04",
     title: "strip of 400 mm pulled off: limit point, plateau, snap-back",
+    remark: "",
     coarse: COARSE,
     run: |method, coarse| STRIP.run(method, coarse),
 };

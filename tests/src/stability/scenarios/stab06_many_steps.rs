@@ -8,6 +8,7 @@ use crate::stability::{COARSE, Case, Figure, Scenario};
 pub const SCENARIO: Scenario = Scenario {
     id: "STAB-06",
     title: "choice of the operator: the same bar, steps of 0.002 mm",
+    remark: "",
     coarse: COARSE,
     run: |method, coarse| {
         Some(draw(method, 0.002 * coarse, &weak_cell())?.map(|driven| {

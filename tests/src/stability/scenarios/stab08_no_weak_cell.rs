@@ -46,6 +46,7 @@ fn run(method: Method, coarse: f64) -> Option<Result<Case, Failure>> {
 pub const SCENARIO: Scenario = Scenario {
     id: "STAB-08",
     title: "no weak cell: strengths scatter by 1 %, five seeds",
+    remark: "",
     coarse: COARSE,
     run,
 };

@@ -46,34 +46,32 @@ fn least_over_largest(stiffness: f64, rule: InterfaceRule) -> Result<f64, Failur
     Ok(least / largest)
 }
 
-/// With the stiffness of a bond (element over characteristic length 0.9) no rule oscillates; from 1e4 MPa/mm on, Gauss
-/// points are known to.
+/// Up to 1e3 MPa/mm (element over characteristic length 0.9 with that of a bond) no rule oscillates; from 1e4 MPa/mm on, Gauss
+/// points do. Points on the nodes hardly do at 1e4 MPa/mm, and at 1e6 MPa/mm by less than a ten-thousandth, where the catalogue
+/// has 0.
 fn figures() -> Result<Vec<Figure>, Failure> {
+    let measure = |rule: InterfaceRule, stiffness: f64| -> Result<(String, f64), Failure> {
+        let name = format!("least over largest traction, {rule:?}, {stiffness:e} MPa/mm");
+        Ok((name, least_over_largest(stiffness, rule)?))
+    };
     let mut figures = Vec::new();
     for (rule, at_1e4, at_1e6) in [
-        (InterfaceRule::Gauss2, -0.50, -0.93),
-        (InterfaceRule::Gauss3, -0.12, -0.24),
+        (InterfaceRule::Gauss2, -0.50, Some(-0.93)),
+        (InterfaceRule::Gauss3, -0.12, Some(-0.24)),
+        (InterfaceRule::Lobatto3, -0.006, None),
     ] {
-        for (stiffness, target) in [(1e4, at_1e4), (1e6, at_1e6)] {
-            let found = least_over_largest(stiffness, rule)?;
-            let name = format!("least over largest traction, {rule:?}, {stiffness:e} MPa/mm");
-            figures.push(Figure::near(name, found, target, 0.04));
+        for stiffness in [76.9, 1e3] {
+            let (name, found) = measure(rule, stiffness)?;
+            figures.push(Figure::at_least(name, found, 0.0));
         }
+        let (name, found) = measure(rule, 1e4)?;
+        figures.push(Figure::near(name, found, at_1e4, 0.04));
+        let (name, found) = measure(rule, 1e6)?;
+        figures.push(match at_1e6 {
+            Some(target) => Figure::near(name, found, target, 0.04),
+            None => Figure::at_least(name, found, -1e-4).measured("0"),
+        });
     }
-    for rule in [
-        InterfaceRule::Gauss2,
-        InterfaceRule::Gauss3,
-        InterfaceRule::Lobatto3,
-    ] {
-        let found = least_over_largest(76.9, rule)?;
-        figures.push(Figure::at_least(
-            format!("{rule:?}, 76.9 MPa/mm"),
-            found,
-            0.0,
-        ));
-    }
-    let found = least_over_largest(1e6, InterfaceRule::Lobatto3)?;
-    figures.push(Figure::at_least("Lobatto3, 1e6 MPa/mm", found, -0.01));
     Ok(figures)
 }
 
@@ -81,6 +79,7 @@ fn figures() -> Result<Vec<Figure>, Failure> {
 pub const SCENARIO: Scenario = Scenario {
     id: "STAB-09",
     title: "dummy stiffness: traction of an interface oscillates with a penalty, not with a bond",
+    remark: "",
     coarse: &[],
     run: |method, _| (method == Method::Automatic).then(|| figures().map(Case::checked)),
 };

@@ -51,6 +51,7 @@ fn figures() -> Result<Vec<Figure>, Failure> {
 pub const SCENARIO: Scenario = Scenario {
     id: "STAB-10",
     title: "nodal integration: no node of an interface has a negative stiffness",
+    remark: "",
     coarse: &[],
     run: |method, _| (method == Method::Automatic).then(|| figures().map(Case::checked)),
 };

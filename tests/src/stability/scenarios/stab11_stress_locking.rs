@@ -131,6 +131,7 @@ fn fixed(transfer: ShearTransfer) -> Result<Point, Failure> {
 pub const ROTATING: Scenario = Scenario {
     id: "STAB-11",
     title: "stress locking: tension, then shear; law objective, rotating cracks",
+    remark: "",
     coarse: &[],
     run: |method, _| (method == Method::Automatic).then(|| case(rotating())),
 };

@@ -45,6 +45,7 @@ fn figures() -> Result<Vec<Figure>, Failure> {
 pub const SCENARIO: Scenario = Scenario {
     id: "STAB-13",
     title: "return mapping to the Ottosen surface from up to 10 fcm",
+    remark: "",
     coarse: &[],
     run: |method, _| (method == Method::Automatic).then(|| figures().map(Case::checked)),
 };

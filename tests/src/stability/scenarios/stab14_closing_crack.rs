@@ -3,7 +3,10 @@
 //! Targets of the catalogue: energy created at most 1e-6 of that dissipated, 15 iterations in 95 % of the steps. Energy is created
 //! where dissipation, work less free energy, falls. In the bar it is that of whole steps, and the residuals do work too: they
 //! are 1e-6 here (with 1e-4 the longest steps create 1.3e-6). The sheared crack is followed at a point, in steps too short for
-//! the trapezoidal rule to matter, and in two cells, one of them 5 % weaker, which the drivers solve.
+//! the trapezoidal rule to matter: its energies are those of the law, the same for every method. It is followed in two cells as well, one
+//! of them 5 % weaker, which the drivers solve. Where one of their steps opens and closes cracks the rule errs, with the square of
+//! its length: up to 1.2e-3 of the energy dissipated seems to be created; in steps of a thousandth of a leg it is 2e-7
+//! (`stab14_energy`). The work on the cells is held against that in such steps.
 //!
 //! The cells have no lateral contraction. With Poisson's ratio of 0.2, which the law drops at the onset of a crack, one step of
 //! half the usual length is refused by the step control, as it would create 0.1 N mm.
@@ -12,11 +15,13 @@ use std::sync::Arc;
 
 use fe_core::dof::Dof;
 use fe_core::element::Element;
+use fe_core::energy::Ledger;
 use fe_core::model::{Conditions, Model};
 use fe_core::state::StateStore;
 use fe_elements::{BandWidth, Hex20, HexRule};
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters, ShearTransfer};
 use fe_solver::control::StepControl;
+use fe_solver::driver::Driver;
 use fe_solver::stage::Stage;
 use nalgebra::Vector6;
 
@@ -31,6 +36,8 @@ use crate::stability::{COARSE, Case, Failure, Figure, Method, Scenario};
 const CREATED: f64 = 1e-6;
 /// Relative residual of a step.
 const CRITERION: f64 = 1e-6;
+/// Work on the two cells (N mm) in steps of a thousandth of a leg.
+const CELLS_WORK: f64 = 261.5;
 
 fn iterations(driven: &Driven) -> Figure {
     let most = driven.iterations_within(0.95) as f64;
@@ -117,57 +124,71 @@ fn two_cells() -> Result<Model, Failure> {
 }
 
 /// Leads the outer faces of the cells through the mean strains, in steps of a share of each leg.
-fn sheared(method: Method, step: f64) -> Option<Result<Driven, Failure>> {
-    let mut driver = method.imposing(step)?;
-    let mut lead = || -> Result<Driven, Failure> {
-        let model = two_cells()?;
-        let mut state = StateStore::new(model.elements());
-        let mut u = vec![0.0; model.dofs().len()];
-        let mut driven = Driven::holding(CRITERION);
-        let mut from = [0.0; 3];
-        for to in WAY {
-            let [x, y, xy] = [0, 1, 2].map(|k| 1e-3 * (to[k] - from[k]));
-            let mut conditions = Conditions::new(&model);
-            for node in nodes_where(model.mesh(), |_| true) {
-                let at = model.mesh().nodes()[node];
-                conditions.fix(&model, node, Dof::Uz)?;
-                if at[0] == 0.0 || at[0] == 2.0 * BAND {
-                    let rate = x * at[0] + xy * at[1];
-                    conditions.prescribe(&model, node, Dof::Ux, rate)?;
-                }
-                if at[1] == 0.0 || at[1] == BAND {
-                    conditions.prescribe(&model, node, Dof::Uy, y * at[1])?;
-                }
+///
+/// # Errors
+///
+/// Whatever model, conditions or stage refuse; that a leg ends early is kept.
+pub fn sheared(driver: &mut dyn Driver, step: f64) -> Result<Driven, Failure> {
+    let model = two_cells()?;
+    let mut state = StateStore::new(model.elements());
+    let mut u = vec![0.0; model.dofs().len()];
+    let mut ledger = Ledger::default();
+    let mut driven = Driven::holding(CRITERION);
+    let mut from = [0.0; 3];
+    for to in WAY {
+        let [x, y, xy] = [0, 1, 2].map(|k| 1e-3 * (to[k] - from[k]));
+        let mut conditions = Conditions::new(&model);
+        for node in nodes_where(model.mesh(), |_| true) {
+            let at = model.mesh().nodes()[node];
+            conditions.fix(&model, node, Dof::Uz)?;
+            if at[0] == 0.0 || at[0] == 2.0 * BAND {
+                let rate = x * at[0] + xy * at[1];
+                conditions.prescribe(&model, node, Dof::Ux, rate)?;
             }
-            let control = StepControl {
-                criterion: CRITERION,
-                shortest: step / 1024.0,
-                ..StepControl::new(step, 1.0)
-            };
-            let mut stage = Stage::new(&model, conditions, &mut state, u.clone())?;
-            let arrived = driven.lead(&control, &mut stage, driver.as_mut());
-            u = stage.displacement().to_vec();
-            if !arrived {
-                break;
+            if at[1] == 0.0 || at[1] == BAND {
+                conditions.prescribe(&model, node, Dof::Uy, y * at[1])?;
             }
-            from = to;
         }
-        Ok(driven)
-    };
-    Some(lead())
+        let control = StepControl {
+            criterion: CRITERION,
+            shortest: step / 1024.0,
+            ..StepControl::new(step, 1.0)
+        };
+        let stage = Stage::new(&model, conditions, &mut state, u.clone())?;
+        let mut stage = stage.with_ledger(ledger);
+        let arrived = driven.lead(&control, &mut stage, driver);
+        u = stage.displacement().to_vec();
+        ledger = stage.into_ledger();
+        if !arrived {
+            break;
+        }
+        from = to;
+    }
+    Ok(driven)
 }
 
 fn beside(method: Method, coarse: f64) -> Option<Result<Case, Failure>> {
-    let driven = sheared(method, 0.05 * coarse)?;
-    Some(driven.and_then(|driven| {
+    let step = 0.05 * coarse;
+    let mut driver = method.imposing(step)?;
+    Some(sheared(driver.as_mut(), step).and_then(|driven| {
         let mut figures = Vec::new();
         for (name, transfer) in [
             ("damage", ShearTransfer::Damage),
             ("interlock", ShearTransfer::Interlock { aggregate_mm: 19.0 }),
         ] {
-            let name = format!("energy created over that dissipated, {name}");
+            let name = format!("energy created over that dissipated at a point, {name}");
             figures.push(Figure::at_most(name, created(transfer)?, CREATED));
         }
+        let gained = driven.gained() / driven.spent();
+        let name = "energy created in a step over that dissipated, cells";
+        figures.push(Figure::at_most(name, gained, 1.5e-3).measured("1e-6"));
+        let work = Figure::near(
+            "work on the cells, N mm",
+            driven.worked(),
+            CELLS_WORK,
+            0.035,
+        );
+        figures.push(work.measured("none"));
         figures.push(iterations(&driven));
         Ok(Case::driven(driven, figures))
     }))
@@ -177,6 +198,7 @@ fn beside(method: Method, coarse: f64) -> Option<Result<Case, Failure>> {
 pub const SCENARIO: Scenario = Scenario {
     id: "STAB-14",
     title: "a crack closes and opens again, twice",
+    remark: "",
     coarse: COARSE,
     run: bar,
 };
@@ -184,6 +206,9 @@ pub const SCENARIO: Scenario = Scenario {
 /// Two cracks.
 pub const SHEARED: Scenario = Scenario {
     title: "a sheared crack closes while another opens beside it, to and fro",
+    remark: "Energies at a point are those of the law, the same for every method. Those of the two cells are the method's: the \
+             trapezoidal rule of a whole step errs with the square of its length, and 1e-6, the catalogue's, is met in steps of a \
+             thousandth of a leg.",
     run: beside,
     ..SCENARIO
 };

@@ -96,6 +96,7 @@ fn figures() -> Result<Vec<Figure>, Failure> {
 pub const SCENARIO: Scenario = Scenario {
     id: "STAB-18",
     title: "floating strip: what has come off stays where the residual holds it",
+    remark: "",
     coarse: &[],
     run: |method, _| (method == Method::Automatic).then(|| figures().map(Case::checked)),
 };

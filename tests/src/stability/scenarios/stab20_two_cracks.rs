@@ -65,6 +65,8 @@ fn run(method: Method, coarse: f64) -> Option<Result<Case, Failure>> {
 pub const SCENARIO: Scenario = Scenario {
     id: "STAB-20",
     title: "bifurcation: two places may crack, one is 1 % weaker",
+    remark: "The catalogue has a beam that fails in shear on one side, full against half. Here are a bar in tension and its half: no \
+             diagonal crack, no full against half beam.",
     coarse: COARSE,
     run,
 };

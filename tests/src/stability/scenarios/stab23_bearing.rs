@@ -191,6 +191,7 @@ fn figures() -> Result<Vec<Figure>, Failure> {
 pub const SCENARIO: Scenario = Scenario {
     id: "STAB-23",
     title: "unilateral bearing: lifts under half a pressure, not under a uniform one",
+    remark: "",
     coarse: &[],
     run: |method, _| (method == Method::Automatic).then(|| figures().map(Case::checked)),
 };

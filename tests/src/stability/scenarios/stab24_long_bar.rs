@@ -44,6 +44,7 @@ pub const LONGER: Scene = Scene {
 pub const BAR_1000: Scenario = Scenario {
     id: "STAB-24",
     title: "bar of 1000 mm cracks: nearly vertical snap-back",
+    remark: "",
     coarse: COARSE,
     run: |method, coarse| LONG.run(method, coarse),
 };

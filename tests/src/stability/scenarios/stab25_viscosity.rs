@@ -37,6 +37,7 @@ fn run(method: Method, coarse: f64) -> Option<Result<Case, Failure>> {
 pub const SCENARIO: Scenario = Scenario {
     id: "STAB-25",
     title: "viscosity as a cure: the bar with a weak cell, steps of 0.002 mm",
+    remark: "",
     coarse: COARSE,
     run,
 };
