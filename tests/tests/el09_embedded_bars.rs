@@ -10,8 +10,8 @@ use fe_core::kinematics::Axial;
 use fe_core::material::Material;
 use fe_core::material::Operator;
 use fe_core::mesh::{Mesh, NodeId};
-use fe_core::shape::hex20;
-use fe_core::testing::{Worst, below, counted, within};
+use fe_core::shape::{hex20, quadrature::gauss_legendre};
+use fe_core::testing::{Worst, below, counted, within, within_share};
 use fe_elements::{Bar, Dowel, EmbeddedBar, Hosts, Led, embed};
 use fe_materials::Elastic;
 use fe_tests::laws::Tendon;
@@ -147,14 +147,21 @@ fn uniform_strain_is_exact_in_distorted_hosts() {
     );
 }
 
+/// Displacement gradient along a bar: that of a nodal field at a point, times the direction.
+fn slope(mesh: &Mesh, v: &[Vector3<f64>], point: Vector3<f64>, t: Vector3<f64>) -> f64 {
+    let h = 1e-4;
+    let [ahead, behind] = [1.0, -1.0].map(|s| field_at(mesh, v, (point + s * h * t).into()));
+    t.dot(&(ahead - behind)) / (2.0 * h)
+}
+
 /// EL-09b, a bar of constant force on a field without pattern. Targets: work N t . (v_b - v_a) within 1e-12 in boxes,
-/// where two points per piece integrate the strain, and within 1e-3 in distorted hosts with four. A bar that is not cut at
-/// the faces of its hosts misses by more than half.
+/// where two points per piece integrate the strain, and within 7e-4 in distorted hosts with four. The catalogue has 0.007 % there; its bar
+/// and the distortion of its hosts are not stated, and 0.061 % is found in these. The miss is over N.
 #[test]
 fn every_piece_is_cut_at_the_faces() {
     let t = (Vector3::from(B) - Vector3::from(A)).normalize();
     let stress = 300.0;
-    for (warp, tolerance) in [(0.0, 1e-12), (6.0, 1e-3)] {
+    for (warp, tolerance) in [(0.0, 1e-12), (6.0, 7e-4)] {
         let mesh = cube(warp);
         let bars = bars(&mesh, [A, B], Arc::new(Tendon { stress_mpa: stress }));
         let rest = vec![Vector3::zeros(); mesh.nodes().len()];
@@ -174,6 +181,34 @@ fn every_piece_is_cut_at_the_faces() {
             worst.see(miss, seed);
         }
         worst.tell();
+    }
+}
+
+/// EL-09b, what the cuts are for: the same work with the points of one rule along the whole bar, not cut at the faces of its hosts,
+/// in boxes. Targets, the worst miss over N on displacements of 1 mm at most at the nodes: more than 0.4 mm, and what was measured,
+/// 2.66 mm with two points and 0.424 mm with four, the most of any rule here. (Catalogue: 73 % of the work with two points and 152 %
+/// with ten, on fields it does not state.)
+#[test]
+fn a_bar_that_is_not_cut_misses() {
+    let mesh = cube(0.0);
+    let along = Vector3::from(B) - Vector3::from(A);
+    let (length, t) = (along.norm(), along.normalize());
+    for (count, target) in [(2, 2.66), (4, 0.424)] {
+        let mut worst = 0.0_f64;
+        for seed in 0..20 {
+            let v = irregular(&mesh, seed);
+            let exact = t.dot(&(field_at(&mesh, &v, B) - field_at(&mesh, &v, A)));
+            let found: f64 = gauss_legendre(count)
+                .iter()
+                .map(|(x, w)| {
+                    let at = Vector3::from(A) + along * (0.5 * (x + 1.0));
+                    0.5 * length * w * slope(&mesh, &v, at, t)
+                })
+                .sum();
+            worst = worst.max((found - exact).abs());
+        }
+        let what = format!("EL-09b: work over N of a bar not cut, {count} points, worst miss (mm)");
+        within_share(&what, worst, target, 0.01);
     }
 }
 

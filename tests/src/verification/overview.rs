@@ -23,7 +23,7 @@ pub const CASES: [Case; 33] = [
     ),
     Case(
         "EL-04",
-        "slender beams of six hexahedra",
+        "slender beams of six and twelve hexahedra",
         "MacNeal and Harder (1985); ratios computed independently",
     ),
     Case("EL-05", "Cook's membrane", "Cook (1974)"),
