@@ -30,11 +30,11 @@ pub const OPENING: f64 = 2.0 * ENERGY / STRENGTH;
 pub const AREA: f64 = 100.0;
 
 /// Concrete of a tensile strength (MPa) without lateral contraction.
-fn concrete(strength: f64) -> FixedCrack {
+fn concrete(strength: f64, tension_softening: TensionSoftening) -> FixedCrack {
     let parameters = FixedCrackParameters {
         ft_mpa: strength,
         poisson: 0.0,
-        tension_softening: TensionSoftening::Linear,
+        tension_softening,
         fracture_energy: ENERGY,
         ..FixedCrackParameters::from_strength(30.0, STRENGTH, YOUNG)
     };
@@ -56,8 +56,22 @@ pub fn bar(length: f64, n: usize) -> (Model, Conditions) {
 ///
 /// For a length that is not positive.
 pub fn banded(length: f64, n: usize, band: f64) -> (Model, Conditions) {
+    pulled(length, n, band, TensionSoftening::Linear)
+}
+
+/// A bar of `n` cells, the first of which cracks, with exponential softening, sigma = ft exp(-(e - ft/E)/e_f) over the strain e of
+/// that cell, e_f = GF/(ft h) - ft/(2 E).
+///
+/// # Panics
+///
+/// For a length that is not positive.
+pub fn exponential(length: f64, n: usize) -> (Model, Conditions) {
+    pulled(length, n, length / n as f64, TensionSoftening::Exponential)
+}
+
+fn pulled(length: f64, n: usize, band: f64, softening: TensionSoftening) -> (Model, Conditions) {
     let strengths: Vec<_> = (0..n).map(|i| (i == 0).then_some(STRENGTH)).collect();
-    let model = cracking(length, &strengths, band);
+    let model = cracking(length, &strengths, (band, softening));
     let mut conditions = held(&model);
     push_faces(
         &model,
@@ -76,7 +90,8 @@ pub fn banded(length: f64, n: usize, band: f64) -> (Model, Conditions) {
 /// For a length that is not positive.
 pub fn moved(length: f64, strengths: &[f64]) -> (Model, Conditions) {
     let strengths: Vec<_> = strengths.iter().map(|s| Some(*s)).collect();
-    let model = cracking(length, &strengths, length / strengths.len() as f64);
+    let band = length / strengths.len() as f64;
+    let model = cracking(length, &strengths, (band, TensionSoftening::Linear));
     let mut conditions = held(&model);
     for node in nodes_where(model.mesh(), |x| x[0] == length) {
         conditions
@@ -86,14 +101,18 @@ pub fn moved(length: f64, strengths: &[f64]) -> (Model, Conditions) {
     (model, conditions)
 }
 
-/// Cells along x with crack bands of a width (mm), elastic where there is no strength.
-fn cracking(length: f64, strengths: &[Option<f64>], width: f64) -> Model {
+/// Cells along x with crack bands of a width (mm) and a softening, elastic where there is no strength.
+fn cracking(
+    length: f64,
+    strengths: &[Option<f64>],
+    (width, softening): (f64, TensionSoftening),
+) -> Model {
     let n = strengths.len();
     let mesh = boxes(&lines(0.0, length, n), &[0.0, 10.0], &[0.0, 10.0]).expect("a bar");
     let mut elements: Vec<Box<dyn Element>> = Vec::new();
     for ((nodes, coords), strength) in cells(&mesh, &mesh.blocks()[0]).zip(strengths) {
         let law: Arc<dyn Material<Solid>> = match strength {
-            Some(strength) => Arc::new(concrete(*strength)),
+            Some(strength) => Arc::new(concrete(*strength, softening)),
             None => Arc::new(Elastic::new(YOUNG, 0.0).expect("a bar")),
         };
         let band = BandWidth::Fixed(width);

@@ -1,4 +1,5 @@
-//! STR-03: bar in tension with one crack band, E = 30 000 MPa, ft = 2.2 MPa, GF = 0.08 N/mm, linear softening.
+//! STR-03: bar in tension with one crack band, E = 30 000 MPa, ft = 2.2 MPa, GF = 0.08 N/mm, linear softening (exponential in one
+//! test).
 //!
 //! Source: elastic bar and cohesive crack in series: critical opening wc = 2 GF/ft = 0.07273 mm; after the peak
 //! d sigma/d u = 1/(L/E - wc/ft), which is -37.9, -61.0, +3630, +29.8 MPa/mm for L = 200, 500, 1000, 2000 mm: beyond
@@ -13,7 +14,9 @@ use fe_solver::newton::{NewtonRaphson, NewtonSettings};
 use fe_solver::path::FreeDisplacement;
 use fe_solver::secant::SecantAnderson;
 use fe_tests::mesh::nodes_where;
-use fe_tests::softening_bar::{AREA, ENERGY, OPENING, STRENGTH, YOUNG, banded, bar, held, moved};
+use fe_tests::softening_bar::{
+    AREA, ENERGY, OPENING, STRENGTH, YOUNG, banded, bar, exponential, held, moved,
+};
 use fe_tests::solve::run;
 
 /// Stress and displacement of the end along the path of a bar of `n` cells, the first of which cracks; driven by the
@@ -104,6 +107,67 @@ fn dissipated(path: &[[f64; 2]], opening: f64) -> f64 {
     let area = |p: &[[f64; 2]]| 0.5 * (p[0][0] + p[1][0]) * (p[1][1] - p[0][1]);
     let [stress, end] = path[path.len() - 1];
     path.windows(2).map(area).sum::<f64>() + 0.5 * stress * (opening - end)
+}
+
+/// Exponential softening, steeper at its start than linear softening of the same energy: a bar of 700 mm, between l_ch = E GF/ft^2 =
+/// 495.9 mm and 2 l_ch, snaps back with it (and does not with linear softening). Source: band of h with e_f and elastic rest in
+/// series, u = h (ft/E + e_f ln(ft/s)) + (L - h) s/E. Targets: every point of the falling branch on that curve within 0.1 % of
+/// the end's displacement at the peak; the end moves back until s = E h e_f/(L - h), within 1 %, and on again; dissipation GF within
+/// 0.2 % (steps cut off the tip of the peak).
+#[test]
+fn exponential_softening_snaps_back_in_shorter_bars() {
+    let (length, cells, opening) = (700.0, 20, 0.2);
+    let end_of = |path: &[[f64; 2]]| {
+        let peak = (0..path.len())
+            .max_by(|&a, &b| path[a][0].total_cmp(&path[b][0]))
+            .unwrap();
+        (
+            peak,
+            path[peak..]
+                .iter()
+                .map(|p| p[1])
+                .fold(f64::INFINITY, f64::min),
+        )
+    };
+    let path = follow(exponential(length, cells), length, cells, opening);
+    let h = length / cells as f64;
+    let onset = STRENGTH / YOUNG;
+    let decay = ENERGY / (STRENGTH * h) - 0.5 * onset;
+    let exact = |s: f64| h * (onset + decay * (STRENGTH / s).ln()) + (length - h) * s / YOUNG;
+    let at_peak = exact(STRENGTH);
+    let (peak, least) = end_of(&path);
+    within_share("peak (MPa), exponential", path[peak][0], STRENGTH, 0.02);
+    let mut worst = Worst::new(
+        "displacement of the end, error over that at the peak, exponential",
+        1e-3,
+    );
+    for [stress, end] in &path[peak + 1..] {
+        worst.see((end - exact(*stress)) / at_peak, stress);
+    }
+    worst.tell();
+    let turn = YOUNG * h * decay / (length - h);
+    let what = "STR-03: displacement to which the end moves back (mm), L = 700, exponential";
+    within_share(what, least, exact(turn), 1e-3);
+    let low = path
+        .iter()
+        .skip(peak)
+        .min_by(|a, b| a[1].total_cmp(&b[1]))
+        .unwrap();
+    within_share("stress there (MPa)", low[0], turn, 0.02);
+    assert!(exact(turn) < 0.97 * at_peak && path.last().unwrap()[1] > at_peak);
+    // Of the rest, from the last point on, the curve tells.
+    let [stress, end] = path[path.len() - 1];
+    let rest = h * decay * stress - 0.5 * (length - h) * stress * stress / YOUNG;
+    let work = dissipated(&path, end) + rest;
+    within_share(
+        "STR-03: dissipation (N/mm), L = 700, exponential",
+        work,
+        ENERGY,
+        2e-3,
+    );
+    let linear = self::path(length, cells);
+    let (peak, least) = end_of(&linear);
+    assert!(least >= linear[peak][1], "linear softening: {least}");
 }
 
 /// What the crack band protects from: a law that softens to a strain of 1e-3 whatever the size of the cell. Target: it

@@ -14,7 +14,7 @@ use fe_core::kinematics::{Axial, Solid};
 use fe_core::material::{Material, Operator};
 use fe_core::model::{Conditions, Model};
 use fe_core::state::StateStore;
-use fe_core::testing::within_share;
+use fe_core::testing::{within, within_share};
 use fe_elements::{Bar, HexRule, embed};
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 use fe_materials::{Biso, Elastic};
@@ -130,7 +130,9 @@ fn cracking_moment() {
 }
 
 /// Yielding and ultimate state. Target: closed form within 0.05 % with 20 layers (40 fibres), the neutral axis within 0.5 %;
-/// ultimate moment within 1 % with 4 layers (8 fibres), 0.05 % with 8 layers.
+/// ultimate moment within 1 % with 4 layers (8 fibres), 0.05 % with 8 layers. The catalogue has -0.37, -0.07 and -0.03 % with 8, 16 and
+/// 40 fibres of the same laws: its fibres are strips with the stress of their middle, by which these figures are found again. Here
+/// they are Gauss points, two a layer: 0.78, -0.02 and 0.01 %, asserted within 0.01 % of the moment.
 #[test]
 fn yielding_and_ultimate_moment() {
     let ultimate = (6.127e-5, 93.294, 57.125);
@@ -151,10 +153,12 @@ fn yielding_and_ultimate_moment() {
             5e-3,
         );
     }
-    for (layers, tolerance) in [(4, 1e-2), (8, 5e-4)] {
+    for (layers, tolerance, measured) in [(4, 1e-2, 0.783), (8, 5e-4, -0.019), (20, 5e-4, 0.013)] {
         let found = cracked(layers).bend(ultimate.0).0;
         let what = format!("ultimate moment (kNm), {layers} layers");
         within_share(&what, found, ultimate.1, tolerance);
+        let what = format!("ultimate moment, deviation (%), {} fibres", 2 * layers);
+        within(&what, 100.0 * (found / ultimate.1 - 1.0), measured, 0.01);
     }
 }
 
