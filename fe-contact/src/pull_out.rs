@@ -16,6 +16,11 @@ use crate::limits::positive;
 /// | elastic, up to s0 at the loaded end | (tau_max/lambda_1) tanh(lambda_1 L) delta/s0 |
 /// | elastic and softening | (tau_max/lambda_2) \[(lambda_2/lambda_1) tanh(lambda_1 (L-a)) cos(lambda_2 a) + sin(lambda_2 a)\] |
 /// | peak: tanh(lambda_1 (L-a)) = (lambda_2/lambda_1) tan(lambda_2 a) | (tau_max/lambda_2) s_f/(s_f - s0) sin(lambda_2 a) |
+/// | debonding, d off | that of elastic and softening over L - d, with s_f at its end |
+/// | the last a_u = pi/(2 lambda_2) | falls from tau_max/lambda_2 to 0 along a straight line |
+///
+/// A substrate that gives, of membrane stiffness E_c t_c and width b_c under a sheet of width b_f, changes E_f t_f to 1/kappa, kappa =
+/// 1/(E_f t_f) + b_f/(b_c E_c t_c), in all formulas: give that as the membrane stiffness; displacements are slips then.
 ///
 /// Lengths are positive (mm), `softened` at most the length; for others the formulas mean nothing, and may be NaN.
 ///
@@ -61,7 +66,7 @@ impl PullOut {
     /// Longest element (mm) that resolves the process zone: a third of the softening length at debonding, pi/(2 lambda_2)/3.
     /// Beyond it the force oscillates as the zone passes element by element, and its peak is too high.
     pub fn longest_element(&self) -> f64 {
-        std::f64::consts::FRAC_PI_2 / self.lambda[1] / 3.0
+        self.debonding_zone() / 3.0
     }
 
     /// Force per width (N/mm) at which the loaded end reaches s0.
@@ -83,10 +88,48 @@ impl PullOut {
         )
     }
 
+    /// Softened length at debonding (mm): pi/(2 lambda_2). What is left of a sheet when it comes off at once.
+    pub fn debonding_zone(&self) -> f64 {
+        std::f64::consts::FRAC_PI_2 / self.lambda[1]
+    }
+
+    /// Force per width (N/mm) and displacement (mm) of the loaded end when `debonded` (mm) of the length is off and more than
+    /// [`Self::debonding_zone`] is left.
+    ///
+    /// What is left, l, softens over the a of tan(lambda_2 a) tanh(lambda_1 (l - a)) = lambda_1/lambda_2, at which the slip of its end is
+    /// s_f; the part that is off is stretched by p d/(E_f t_f).
+    pub fn debonding(&self, length: f64, debonded: f64) -> (f64, f64) {
+        let [l1, l2] = self.lambda;
+        let left = length - debonded;
+        let (mut low, mut high) = (0.0, left.min(self.debonding_zone()));
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            let (sin, cos) = (l2 * middle).sin_cos();
+            if l2 / l1 * (l1 * (left - middle)).tanh() * sin < cos {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let (force, _) = self.softening(left, low);
+        (
+            force,
+            self.bond.final_slip() + force / self.membrane * debonded,
+        )
+    }
+
+    /// Force per width (N/mm) and displacement (mm) of the loaded end where the last [`Self::debonding_zone`] of the length begins to
+    /// come off, for a length of that at least. From there the path is a straight line to no force at s_f: a snap-back.
+    pub fn last_line(&self, length: f64) -> (f64, f64) {
+        let force = self.bond.strength() / self.lambda[1];
+        let off = length - self.debonding_zone();
+        (force, self.bond.final_slip() + force / self.membrane * off)
+    }
+
     /// Softened length (mm), force per width (N/mm) and displacement of the loaded end (mm) at the peak.
     pub fn peak(&self, length: f64) -> (f64, f64, f64) {
         let [l1, l2] = self.lambda;
-        let (mut low, mut high) = (0.0, length.min(0.5 * std::f64::consts::PI / l2));
+        let (mut low, mut high) = (0.0, length.min(self.debonding_zone()));
         for _ in 0..200 {
             let middle = 0.5 * (low + high);
             // Times cos(lambda_2 a) > 0, which keeps it finite.

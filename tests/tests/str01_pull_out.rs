@@ -104,6 +104,66 @@ fn area(rows: &[Row]) -> f64 {
         .sum()
 }
 
+/// The closed form itself, L = 400 mm. Targets: the printed digits of the peak, of the point where the loaded end turns back, and of
+/// the start of the straight line that ends debonding, all within 1e-4; with kappa of a concrete that gives as much as the sheet, twice
+/// that of a rigid one, the long bond carries 1/sqrt(2) of the force.
+#[test]
+fn closed_form_through_debonding() {
+    let closed = closed();
+    let (_, force, displacement) = closed.peak(400.0);
+    within_share("closed form: peak (N)", WIDTH * force, 9269.91, 1e-4);
+    within_share(
+        "closed form: displacement there (mm)",
+        displacement,
+        FINAL,
+        1e-3,
+    );
+    let zone = closed.debonding_zone();
+    within_share("closed form: a_u (mm)", zone, 81.12, 1e-4);
+    let (force, start) = closed.last_line(400.0);
+    within_share(
+        "closed form: straight line, first load (N)",
+        WIDTH * force,
+        8521.5,
+        1e-4,
+    );
+    within_share(
+        "closed form: straight line starts (mm)",
+        start,
+        1.72148,
+        1e-4,
+    );
+    let off = 400.0 - zone;
+    let path = (0..=4000).map(|i| closed.debonding(400.0, off * f64::from(i) / 4000.0));
+    let turn = path.fold((0.0, 0.0), |a, b| if b.1 > a.1 { b } else { a });
+    within_share(
+        "closed form: loaded end turns back (mm)",
+        turn.1,
+        1.76917,
+        1e-4,
+    );
+    within_share("closed form: load there (N)", WIDTH * turn.0, 9003.0, 1e-3);
+    // It joins the softening stage and the straight line.
+    for (debonded, force, displacement) in [(0.0, 9269.91, FINAL), (off, 8521.5, 1.72148)] {
+        let (p, w) = closed.debonding(400.0, debonded);
+        within_share(
+            "closed form: joint of stages, load (N)",
+            WIDTH * p,
+            force,
+            1e-4,
+        );
+        within_share("closed form: joint of stages (mm)", w, displacement, 1e-4);
+    }
+    let giving = PullOut::new(bond().unwrap(), 0.5 * YOUNG * THICKNESS).unwrap();
+    let ratio = giving.ultimate() / closed.ultimate();
+    within(
+        "closed form: force over that on rigid concrete",
+        ratio,
+        0.5_f64.sqrt(),
+        1e-12,
+    );
+}
+
 /// Target: the elastic limit within 0.01 %.
 #[test]
 fn elastic_limit() {
