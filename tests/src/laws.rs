@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use fe_core::kinematics::{Axial, Kinematics, PlaneStress, Solid};
-use fe_core::material::{Material, MaterialError, PointContext, Response, StateVar};
+use fe_core::material::{Material, MaterialError, Operator, PointContext, Response, StateVar};
 use fe_materials::Elastic;
 use nalgebra::{Matrix3, Matrix6, Vector1, Vector3, Vector6};
 
@@ -73,6 +73,59 @@ impl Material<Axial> for Tendon {
         Ok(Response {
             stress: Vector1::new(self.stress_mpa),
             tangent: Axial::zero_tangent(),
+        })
+    }
+}
+
+/// A bar whose damage softens it along a straight line, and that unloads to the origin; without compression of its own.
+#[derive(Debug, Clone, Copy)]
+pub struct Softening {
+    /// Young's modulus (MPa).
+    pub young_mpa: f64,
+    /// Tensile strength (MPa).
+    pub strength_mpa: f64,
+    /// Strain from which on it carries nothing (-).
+    pub broken: f64,
+}
+
+impl Material<Axial> for Softening {
+    fn name(&self) -> &'static str {
+        "softening bar"
+    }
+
+    fn state_vars(&self) -> &[StateVar] {
+        const VARS: [StateVar; 1] = [StateVar::scalar("largest_strain", "-")];
+        &VARS
+    }
+
+    fn update(
+        &self,
+        strain: &Vector1<f64>,
+        committed: &[f64],
+        trial: &mut [f64],
+        ctx: &PointContext,
+    ) -> Result<Response<Axial>, MaterialError> {
+        let e = strain[0];
+        let grows = e > committed[0];
+        let largest = e.max(committed[0]);
+        trial[0] = largest;
+        let onset = self.strength_mpa / self.young_mpa;
+        let slope = -self.strength_mpa / (self.broken - onset);
+        let (secant, tangent) = if largest <= onset {
+            (self.young_mpa, self.young_mpa)
+        } else if largest < self.broken {
+            (slope * (largest - self.broken) / largest, slope)
+        } else {
+            (0.0, 0.0)
+        };
+        let tangent = if grows && ctx.operator == Operator::Tangent {
+            tangent
+        } else {
+            secant
+        };
+        Ok(Response {
+            stress: Vector1::new(secant * e),
+            tangent: Vector1::new(tangent),
         })
     }
 }
