@@ -23,10 +23,6 @@ use crate::mesh::{boxes, hexahedra, lines};
 use crate::solve::run;
 use crate::stability::{Case, Failure, Figure, Method, Scenario};
 
-/// Length of a step, and load factor at the end.
-const STEP: f64 = 0.25;
-const END: f64 = 1.0;
-
 /// A block of 4 x 2 x 1 cells of 50 mm, pressed on its end and sheared; load factor 1 is 0.6 of the strength.
 fn block() -> Result<(Model, Conditions), Failure> {
     let concrete = ConcreteScalars::from_characteristic(30.0)?;
@@ -63,11 +59,11 @@ struct Found {
     unsymmetry: f64,
 }
 
-fn find(driver: &mut dyn Driver) -> Result<Found, Failure> {
+fn find(driver: &mut dyn Driver, step: f64) -> Result<Found, Failure> {
     let (model, conditions) = block()?;
     let control = StepControl {
         criterion: 1e-10,
-        ..StepControl::new(STEP, END)
+        ..StepControl::new(step, 4.0 * step)
     };
     let mut steps: Vec<Vec<f64>> = Vec::new();
     let mut assembler = Assembler::new(&model, &conditions)?;
@@ -121,18 +117,19 @@ fn find(driver: &mut dyn Driver) -> Result<Found, Failure> {
 
 fn case(method: Method) -> Option<Result<Case, Failure>> {
     let settings = NewtonSettings::default();
-    let mut driver: Box<dyn Driver> = match method {
-        Method::Automatic => Box::new(Automatic::new(settings)),
-        Method::Load => Box::new(NewtonRaphson::new(settings)),
+    let (mut driver, step): (Box<dyn Driver>, _) = match method {
+        Method::Automatic => (Box::new(Automatic::new(settings)), 0.05),
+        Method::Load => (Box::new(NewtonRaphson::new(settings)), 0.25),
         _ => return None,
     };
-    Some(find(driver.as_mut()).map(|found| {
+    Some(find(driver.as_mut(), step).map(|found| {
         let order = if found.order.is_finite() {
             found.order
         } else {
             0.0
         };
-        let unsymmetry = Figure::near("|K - K^T| over |K|", found.unsymmetry, 0.264, 0.02);
+        let name = "norm of K - K^T over that of K";
+        let unsymmetry = Figure::at_least(name, found.unsymmetry, 0.15);
         Case::checked(vec![
             Figure::at_least("order of convergence", order, 1.8),
             unsymmetry.measured("to be reported"),
@@ -144,7 +141,9 @@ fn case(method: Method) -> Option<Result<Case, Failure>> {
 pub const SCENARIO: Scenario = Scenario {
     id: "STAB-19",
     title: "unsymmetric tangent of non-associated plasticity: quadratic convergence",
-    remark: "",
+    remark: "The automatic driver controls the loaded displacement, in four steps of 0.05 mm, up to a load factor of 1.25; \
+             Newton-Raphson controls the load, in four steps of a quarter, up to 1. They cannot take the same steps, and the two rows \
+             do not compare the methods.",
     coarse: &[],
     run: |method, _| case(method),
 };
