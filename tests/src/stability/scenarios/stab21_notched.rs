@@ -21,7 +21,7 @@ fn figures(path: &Path) -> Vec<Figure> {
         .map(|[load, w]| off(*load, *w))
         .reduce(larger)
         .unwrap_or(f64::NAN);
-    let upper = Figure::near("upper turning point, mm", upper_turn(path), 1.738, 5e-3);
+    let upper = Figure::near("upper turning point, mm", upper_turn(path), 1.738, 0.02);
     vec![
         upper.measured("1.8985"),
         Figure::near("lower turning point, mm", least(falling), 1.499, 6e-3),
