@@ -4,10 +4,10 @@
 
 use std::sync::Arc;
 
-use fe_core::element::{Element, ElementError};
+use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext};
 use fe_core::grid::GridBuilder;
 use fe_core::kinematics::Axial;
-use fe_core::material::{Material, MaterialError, PointContext, Response, StateVar};
+use fe_core::material::{Material, MaterialError, Operator, PointContext, Response, StateVar};
 use fe_core::mesh::{CellKind, Mesh};
 use fe_core::shape::hex20;
 use fe_elements::{Bar, EmbeddedBar, Hosts, embed};
@@ -39,6 +39,69 @@ impl Material<Axial> for Spring {
             tangent: nalgebra::Matrix1::new(1.0),
         })
     }
+}
+
+/// sigma = h e with the crack-band width h (mm) for a modulus, and the energy of that.
+#[derive(Debug)]
+struct Band;
+
+impl Material<Axial> for Band {
+    fn name(&self) -> &'static str {
+        "band"
+    }
+
+    fn state_vars(&self) -> &[StateVar] {
+        &[]
+    }
+
+    fn update(
+        &self,
+        strain: &Vector1<f64>,
+        _committed: &[f64],
+        _trial: &mut [f64],
+        ctx: &PointContext,
+    ) -> Result<Response<Axial>, MaterialError> {
+        Ok(Response {
+            stress: strain * ctx.band_width,
+            tangent: nalgebra::Matrix1::new(ctx.band_width),
+        })
+    }
+
+    fn free_energy(&self, e: &Vector1<f64>, _: &[f64], ctx: &PointContext) -> Option<f64> {
+        Some(0.5 * ctx.band_width * e[0] * e[0])
+    }
+}
+
+/// Forces, stresses and energy are those of one crack-band width, the length of the bar in its host: 100 mm, so that at a
+/// strain of 1e-3 the force is 0.1 N, the stress 0.1 MPa, the energy 0.005 N mm.
+#[test]
+fn the_law_is_told_one_crack_band_width() {
+    let mut grid = GridBuilder::new();
+    grid.add_box("block", &[0.0, 100.0], &[0.0, 100.0], &[0.0, 100.0]);
+    let mesh = grid.finish().unwrap();
+    let bar = Bar {
+        law: Arc::new(Band),
+        ..bar(vec![[0.0, 50.0, 50.0], [100.0, 50.0, 50.0]])
+    };
+    let element = &embed(&[bar], &mesh, &["block"]).unwrap()[0];
+    let along = |n: &usize| mesh.nodes()[*n][0];
+    let stretch = |n| [1e-3 * along(n), 0.0, 0.0];
+    let u: Vec<f64> = element.nodes().iter().flat_map(stretch).collect();
+    let mut force = [0.0; 60];
+    let system = ElementSystem {
+        force: &mut force,
+        stiffness: &mut [],
+    };
+    let ctx = EvaluationContext::new(Operator::None);
+    element.evaluate(&u, &[], &mut [], &ctx, system).unwrap();
+    // Per unit of the strain the forces work on the length of 100 mm.
+    let resultant = u.iter().zip(force).map(|(u, f)| u * f).sum::<f64>() / 0.1;
+    assert!((resultant - 0.1).abs() < 1e-12, "{resultant}");
+    element
+        .sample(&u, &[], &mut |s| assert!((s.stress[0] - 0.1).abs() < 1e-12))
+        .unwrap();
+    let energy = element.free_energy(&u, &[]).unwrap().unwrap();
+    assert!((energy - 0.005).abs() < 1e-14, "{energy}");
 }
 
 fn bar(polyline: Vec<[f64; 3]>) -> Bar {

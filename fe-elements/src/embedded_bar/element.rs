@@ -311,7 +311,7 @@ impl Element for EmbeddedBar {
             .points
             .iter()
             .map(|p| (self.area * p.weight, strain(p, u)));
-        let energy = points::free_energy(self.law.as_ref(), 0.0, state, bar)?;
+        let energy = points::free_energy(self.law.as_ref(), self.length(), state, bar)?;
         let slid = &state[self.axial_len()..];
         let dowel = self.points.iter().enumerate().filter_map(|(i, p)| {
             let slid = slid.get(i).copied();
@@ -330,7 +330,7 @@ impl Element for EmbeddedBar {
     ) -> Result<(), ElementError> {
         let places = self.points.iter();
         let points = places.map(|p| (p.position, self.area * p.weight, strain(p, u)));
-        points::sample(self.law.as_ref(), 0.0, state, points, visit)
+        points::sample(self.law.as_ref(), self.length(), state, points, visit)
     }
 
     fn host(&self) -> Option<&[NodeId; 20]> {
