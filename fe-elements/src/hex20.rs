@@ -93,14 +93,7 @@ impl Hex20 {
         law: Arc<dyn Material<Solid>>,
         band: BandWidth,
     ) -> Result<Self, ElementError> {
-        if rule != HexRule::Full {
-            // Fewer points see less of a fold.
-            for (point, (xi, _)) in quadrature::cube(3).into_iter().enumerate() {
-                map(coords, point, xi)?;
-            }
-        }
-        let at = |xi| hex20::map(coords, xi).2;
-        corners_turn(hex20::NODES[..8].iter().map(|xi| at(*xi)), at([0.0; 3]))?;
+        refuse_folds(coords)?;
         let mut points = Vec::new();
         let mut positions = Vec::new();
         for (point, (xi, w)) in rule.points().into_iter().enumerate() {
@@ -121,6 +114,15 @@ impl Hex20 {
         let band = band.of(coords, volume, points.len());
         Self::of(Brick { nodes, points }, positions, law, band)
     }
+}
+
+/// Refuses a cell that is folded at one of the 3x3x3 points, of which a rule may see fewer, or turned over at a corner.
+pub(crate) fn refuse_folds(coords: &[[f64; 3]; 20]) -> Result<(), ElementError> {
+    for (point, (xi, _)) in quadrature::cube(3).into_iter().enumerate() {
+        map(coords, point, xi)?;
+    }
+    let at = |xi| hex20::map(coords, xi).2;
+    corners_turn(hex20::NODES[..8].iter().map(|xi| at(*xi)), at([0.0; 3]))
 }
 
 /// Position (mm), gradients (1/mm) and Jacobian determinant (mm3) at a point.

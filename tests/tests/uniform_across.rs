@@ -160,7 +160,10 @@ fn other_cells_are_refused() {
     );
     let away = coords.map(|[x, y, z]| [x, y, z + 5.0]);
     let error = build(&away, &followers).unwrap_err().to_string();
-    assert!(error.contains("z of the inner face (mm) = 5"), "{error}");
+    assert!(
+        error.contains("z of node 0 of the hexahedron (mm) = 5"),
+        "{error}"
+    );
 }
 
 /// A bar across the width strains with w, one along the beam as in the hexahedron.

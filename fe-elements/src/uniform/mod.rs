@@ -9,7 +9,6 @@ use fe_core::followers::Followers;
 use fe_core::kinematics::Solid;
 use fe_core::material::Material;
 use fe_core::mesh::NodeId;
-use fe_core::shape::hex20 as shape;
 use nalgebra::{Matrix6, Vector6};
 
 use crate::hex20::{self, BandWidth, HexRule};
@@ -41,9 +40,9 @@ impl UniformHex20 {
     ///
     /// # Errors
     ///
-    /// [`ElementError::Input`] unless eight of the nodes lead the others and the cell begins at z = 0, and for the reduced
-    /// rule, whose four points leave some of the strains across unseen; otherwise as
-    /// [`Hex20::new`](crate::Hex20::new).
+    /// [`ElementError::Input`] unless eight of the nodes lead the others, the cell begins at z = 0 and its nodes across lie one
+    /// behind the other, those at mid-depth in the middle, and for the reduced rule, whose four points leave some of the strains
+    /// across unseen; otherwise as [`Hex20::new`](crate::Hex20::new).
     pub fn new(
         cell: [NodeId; 20],
         coords: &[[f64; 3]; 20],
@@ -55,14 +54,9 @@ impl UniformHex20 {
         let mut leaders: Vec<NodeId> = cell.iter().map(|&n| followers.of(n).0).collect();
         leaders.sort_unstable();
         leaders.dedup();
-        let refuse = |what: &str, value: f64, allowed: &str| ElementError::Input {
-            what: what.into(),
-            value,
-            allowed: allowed.into(),
-            remedy: "give it one element across, from z = 0 to the outer face".into(),
-        };
         let nodes = <[NodeId; NODES]>::try_from(leaders).map_err(|leaders| {
-            refuse("leading nodes of the hexahedron", leaders.len() as f64, "8")
+            let count = leaders.len() as f64;
+            refuse("leading nodes of the hexahedron".into(), count, "8".into())
         })?;
         if rule == HexRule::Reduced {
             return Err(ElementError::Input {
@@ -73,11 +67,8 @@ impl UniformHex20 {
                     .into(),
             });
         }
-        let depth = coords[4][2] - coords[0][2];
-        let inner = shape::FACES[4].map(|a| coords[a][2]);
-        if let Some(z) = inner.into_iter().find(|z| z.abs() > 1e-6 * depth) {
-            return Err(refuse("z of the inner face (mm)", z, "0"));
-        }
+        hex20::refuse_folds(coords)?;
+        straight_across(coords)?;
         let mut points = Vec::new();
         let mut positions = Vec::new();
         for (point, ([xi, eta], w)) in in_plane(rule).into_iter().enumerate() {
@@ -105,6 +96,39 @@ impl UniformHex20 {
             points,
         };
         Self::of(slice, positions, law, band)
+    }
+}
+
+/// Share of the depth by which nodes may lie off their places.
+const OFF: f64 = 1e-6;
+
+/// Refuses a cell unless its inner face lies at z = 0 and every other node behind one of this face, at mid-depth in the middle.
+fn straight_across(coords: &[[f64; 3]; 20]) -> Result<(), ElementError> {
+    let depth = (coords[4][2] - coords[0][2]).abs();
+    let inner = (0..4).chain(8..12);
+    let on_plane = inner.clone().map(|a| (a, a, 0.0));
+    let outer = inner.map(|a| (a + 4, a, 1.0));
+    let middle = (0..4).map(|a| (a + 16, a, 0.5));
+    for (node, front, share) in on_plane.chain(outer).chain(middle) {
+        let [x, y, _] = coords[front];
+        let place = [x, y, share * coords[front + 4][2]];
+        for (axis, (value, place)) in ["x", "y", "z"].iter().zip(coords[node].iter().zip(place)) {
+            let miss = (value - place).abs();
+            if miss.is_nan() || miss > OFF * depth {
+                let what = format!("{axis} of node {node} of the hexahedron (mm)");
+                return Err(refuse(what, *value, format!("{place}")));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn refuse(what: String, value: f64, allowed: String) -> ElementError {
+    ElementError::Input {
+        what,
+        value,
+        allowed,
+        remedy: "give it one element straight across, its third axis along z, which grows from 0 to the outer face".into(),
     }
 }
 
