@@ -8,6 +8,7 @@ use fe_core::kinematics::Interface;
 use fe_core::material::{Material, Operator, PointContext};
 use fe_core::mesh::NodeId;
 use fe_core::points;
+use fe_core::shape::corners::middle_of_face;
 use fe_core::shape::{quad8, quadrature};
 use nalgebra::{Matrix3, Vector3};
 
@@ -115,7 +116,7 @@ impl Interface16 {
     ///
     /// # Errors
     ///
-    /// [`ElementError::Jacobian`] for a face without area or that folds over, [`ElementError::Input`] for a direction that is
+    /// [`ElementError::Jacobian`] for a face without area or that folds over, also at a corner, [`ElementError::Input`] for a direction that is
     /// normal to it, or [`ElementError::Material`] when the law refuses the point.
     pub fn new(
         nodes: [NodeId; 16],
@@ -124,9 +125,7 @@ impl Interface16 {
         rule: InterfaceRule,
         law: Arc<dyn Material<Interface>>,
     ) -> Result<Self, ElementError> {
-        let (_, slopes) = quad8::shape([0.0; 2]);
-        let [along, across] = quad8::base(coords, &slopes);
-        let middle = along.cross(&across);
+        let middle = middle_of_face(coords)?;
         let mut points = Vec::new();
         for (point, (xi, w)) in rule.points().into_iter().enumerate() {
             let (values, slopes) = quad8::shape(xi);

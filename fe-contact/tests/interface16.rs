@@ -202,3 +202,18 @@ fn impossible_faces_and_directions_are_refused() {
         ));
     }
 }
+
+/// Two corners of a side exchanged, as by a slip in a list of nodes, are refused whatever the rule sees.
+#[test]
+fn exchanged_corners_are_refused() {
+    for a in 0..4 {
+        for rule in RULES {
+            let mut face = flat();
+            face.swap(a, (a + 1) % 4);
+            let (nodes, law) = (std::array::from_fn(|a| a), bond(Normal::Bonded));
+            let turned = Interface16::new(nodes, &face, [1.0, 0.3, 0.0], rule, law);
+            let refused = matches!(turned, Err(ElementError::Jacobian { .. }));
+            assert!(refused, "{a} {rule:?}");
+        }
+    }
+}

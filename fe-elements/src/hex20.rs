@@ -6,11 +6,11 @@ use fe_core::element::ElementError;
 use fe_core::kinematics::Solid;
 use fe_core::material::Material;
 use fe_core::mesh::NodeId;
+use fe_core::shape::corners::corners_turn;
 use fe_core::shape::{hex20, quadrature};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::kernel::{self, PAD, Point};
-use crate::quad8::corners_turn;
 use crate::solid::{Interpolation, SolidElement};
 use crate::vectors::{add_by_node, by_direction};
 

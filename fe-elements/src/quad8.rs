@@ -6,6 +6,7 @@ use fe_core::element::ElementError;
 use fe_core::kinematics::PlaneStress;
 use fe_core::material::Material;
 use fe_core::mesh::NodeId;
+use fe_core::shape::corners::corners_turn;
 use fe_core::shape::{quad8, quadrature};
 use nalgebra::Matrix2;
 
@@ -71,23 +72,6 @@ impl Quad8 {
             });
         }
         Self::of_points(nodes, points, thickness, law)
-    }
-}
-
-/// Share of the Jacobian determinant in the middle by which that of a corner may be negative: exchanged nodes give -1 or
-/// less, the patch of MacNeal and Harder (1985), which is distorted only, -0.05 (assumed).
-const FLAT: f64 = 0.25;
-
-/// Refuses a face or cell whose determinants at the corners say that it is turned over at one, against that in its `middle`:
-/// two of its nodes may be exchanged. A corner may be flat, as in a wedge.
-pub(crate) fn corners_turn(
-    corners: impl Iterator<Item = f64>,
-    middle: f64,
-) -> Result<(), ElementError> {
-    let turned = |(_, determinant): &(usize, f64)| *determinant < -FLAT * middle.abs();
-    match corners.enumerate().find(turned) {
-        Some((point, determinant)) => Err(ElementError::Jacobian { point, determinant }),
-        None => Ok(()),
     }
 }
 

@@ -1,10 +1,11 @@
 //! Integration points of a curved 8-node surface, with axes in its tangent plane.
 
 use fe_core::element::ElementError;
+use fe_core::shape::corners::middle_of_face;
 use fe_core::shape::quad8;
 use nalgebra::{Matrix2, Rotation2, Vector2, Vector3};
 
-use crate::quad8::{QuadRule, corners_turn, gradients, invert};
+use crate::quad8::{QuadRule, gradients, invert};
 
 /// Smallest angle between the direction of axis 1 and the normal (degrees).
 const LEAST_ANGLE: f64 = 1.0;
@@ -68,13 +69,7 @@ pub(crate) fn places(
     rule: QuadRule,
     axis: [f64; 3],
 ) -> Result<Vec<Place>, ElementError> {
-    let [along, across] = quad8::base(coords, &quad8::shape([0.0; 2]).1);
-    let middle = along.cross(&across);
-    let corner = |xi: &[f64; 2]| {
-        let [along, across] = quad8::base(coords, &quad8::shape(*xi).1);
-        along.cross(&across).dot(&middle) / middle.norm()
-    };
-    corners_turn(quad8::NODES[..4].iter().map(corner), middle.norm())?;
+    let middle = middle_of_face(coords)?;
     let place = |(point, (xi, weight)): (usize, ([f64; 2], f64))| {
         let (values, slopes) = quad8::shape(xi);
         let tangents = quad8::base(coords, &slopes);
