@@ -117,6 +117,17 @@ pub enum ElementError {
         /// Blocks of hexahedra there are.
         known: String,
     },
+    /// The energies of the element are no numbers.
+    #[error(
+        "the element has done work of {work} N mm and stores {stored} N mm, which is not finite; check its free energy and that \
+         of its law"
+    )]
+    Energy {
+        /// Work of its forces so far (N mm).
+        work: f64,
+        /// What it stores (N mm).
+        stored: f64,
+    },
     /// Some other impossible input.
     #[error("{what} = {value} is outside {allowed}; {remedy}")]
     Input {
@@ -143,6 +154,7 @@ impl ElementError {
     pub const fn is_recoverable(&self) -> bool {
         match self {
             Self::Material { source, .. } => source.is_recoverable(),
+            Self::Energy { .. } => true,
             _ => false,
         }
     }

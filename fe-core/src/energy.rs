@@ -114,8 +114,8 @@ impl Ledger {
     ///
     /// # Errors
     ///
-    /// [`ModelError::Element`], and [`ModelError::Foreign`] or [`ModelError::ForeignConditions`] for displacements or conditions
-    /// of another model.
+    /// [`ModelError::Element`], also for an element whose energies are not finite, and [`ModelError::Foreign`] or
+    /// [`ModelError::ForeignConditions`] for displacements or conditions of another model.
     pub fn weigh<'s>(
         &mut self,
         model: &Model,
@@ -243,6 +243,9 @@ impl Seen {
         }
         let half: f64 = self.force.iter().zip(&u).map(|(f, u)| 0.5 * f * u).sum();
         let stored = element.free_energy(&u, at.state)?.unwrap_or(half);
+        if !(work.is_finite() && stored.is_finite()) {
+            return Err(ElementError::Energy { work, stored });
+        }
         self.energy = PartEnergy { work, stored };
         Ok(())
     }

@@ -112,6 +112,61 @@ impl Element for Failing {
     }
 }
 
+/// Stores what is no number.
+#[derive(Debug)]
+struct Numberless;
+
+impl Element for Numberless {
+    fn nodes(&self) -> &[NodeId] {
+        &[0]
+    }
+
+    fn dofs(&self) -> &'static [Dof] {
+        &[Dof::Ux]
+    }
+
+    fn state_len(&self) -> usize {
+        0
+    }
+
+    fn init_state(&self, _: &mut [f64]) {}
+
+    fn evaluate(
+        &self,
+        _: &[f64],
+        _: &[f64],
+        _: &mut [f64],
+        _: &EvaluationContext,
+        _: ElementSystem<'_>,
+    ) -> Result<(), ElementError> {
+        Ok(())
+    }
+
+    fn free_energy(&self, _: &[f64], _: &[f64]) -> Result<Option<f64>, ElementError> {
+        Ok(Some(f64::NAN))
+    }
+}
+
+/// An energy that is no number is refused with its element: no sum of it could be held against anything.
+#[test]
+fn an_energy_that_is_no_number_is_told_with_its_element() {
+    let mesh = Mesh::new(vec![[0.0; 3]]).unwrap();
+    let model = Model::new(mesh, vec![Box::new(Numberless)]).unwrap();
+    let (conditions, mut ledger) = (Conditions::new(&model), Ledger::default());
+    let weighed = ledger.weigh(&model, &conditions, (0.0, &[1.0]), |_| ElementAt {
+        dofs: &[0],
+        state: &[],
+        force: Some(&[0.0]),
+    });
+    let error = weighed.unwrap_err();
+    assert!(error.is_recoverable(), "{error}");
+    let told = error.to_string();
+    assert!(
+        told.contains("element 0") && told.contains("stores NaN N mm"),
+        "{told}"
+    );
+}
+
 /// The books tell which element failed instead of taking half the product of its forces and displacements, and refuse
 /// displacements and conditions of another model.
 #[test]

@@ -20,7 +20,7 @@ use crate::material::Material;
 ///   and the share of such steps is bounded by [`MaterialCheck::kink_share`];
 /// - the tangent is symmetric unless the law [announces](Material::unsymmetric_tangent) that it is not;
 /// - [`Operator::Secant`](crate::material::Operator::Secant) is symmetric positive definite;
-/// - sigma_(n+1) : d_eps - d_psi >= 0 if the law has a [free energy](Material::free_energy).
+/// - sigma_(n+1) : d_eps - d_psi >= 0 if the law has a [free energy](Material::free_energy), which is finite.
 ///
 /// # Errors
 ///

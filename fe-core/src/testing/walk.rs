@@ -271,6 +271,7 @@ impl<'a, K: Kinematics> Walk<'a, K> {
         let (Some(before), Some(after)) = (before, after) else {
             return Ok(None);
         };
+        finite(self.place, &[before, after], |_| "free energy".into())?;
         let (old, new) = (K::components(&self.strain), K::components(strain));
         let stress = K::components(&answer.response.stress);
         let terms = (0..K::LEN).map(|i| stress[i] * (new[i] - old[i]));

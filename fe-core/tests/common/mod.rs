@@ -72,6 +72,8 @@ pub enum Flaw {
     ReadsTrial,
     ForgetsAnEntry,
     SoftensOnUnloading,
+    /// Its free energy is infinite.
+    EndlessEnergy,
     IndefiniteSecant,
     StressOfTheOldState,
     OtherStressWithoutOperator,
@@ -211,10 +213,10 @@ impl Material<Axial> for Damage {
     }
 
     fn free_energy(&self, strain: &Vector1<f64>, state: &[f64], _: &PointContext) -> Option<f64> {
-        Some(if self.0 == Flaw::SoftensOnUnloading {
-            0.5 * state[0] * state[0] / YOUNG
-        } else {
-            0.5 * Self::integrity(state[0]) * YOUNG * strain[0] * strain[0]
+        Some(match self.0 {
+            Flaw::SoftensOnUnloading => 0.5 * state[0] * state[0] / YOUNG,
+            Flaw::EndlessEnergy => f64::INFINITY,
+            _ => 0.5 * Self::integrity(state[0]) * YOUNG * strain[0] * strain[0],
         })
     }
 
