@@ -6,11 +6,13 @@ mod common;
 use std::sync::Arc;
 
 use common::{Damage, Elastic, Flaw, Truss};
-use fe_core::material::PointContext;
+use fe_core::kinematics::Solid;
+use fe_core::material::{Material, MaterialError, PointContext, Response, StateVar};
 use fe_core::testing::{
     CheckFailure, ElementCheck, MaterialCheck, check_element, check_isotropy, check_material,
 };
-use nalgebra::Matrix6;
+use fe_core::voigt;
+use nalgebra::{Matrix6, Vector6};
 
 fn check() -> MaterialCheck {
     MaterialCheck::new(1e-3)
@@ -82,6 +84,52 @@ fn a_law_that_creates_energy_is_found() {
         failure(Flaw::SoftensOnUnloading),
         CheckFailure::Dissipation { .. }
     ));
+}
+
+#[test]
+fn a_free_energy_that_is_no_number_is_found() {
+    let failure = failure(Flaw::EndlessEnergy);
+    assert!(
+        matches!(&failure, CheckFailure::NotFinite { quantity, .. } if quantity == "free energy"),
+        "{failure}"
+    );
+}
+
+/// Elastic at rest, broken from its first step on: what is left of its stress is rounding.
+#[derive(Debug)]
+struct Broken;
+
+impl Material<Solid> for Broken {
+    fn name(&self) -> &'static str {
+        "broken"
+    }
+
+    fn state_vars(&self) -> &[StateVar] {
+        &[]
+    }
+
+    fn update(
+        &self,
+        strain: &Vector6<f64>,
+        _: &[f64],
+        _: &mut [f64],
+        _: &PointContext,
+    ) -> Result<Response<Solid>, MaterialError> {
+        let tensor = voigt::strain_tensor(strain);
+        let (values, axes) = voigt::principal(&tensor);
+        let lost = voigt::stress_along(&axes, &values);
+        Ok(Response {
+            stress: 30e3 * (voigt::stress_voigt(&tensor) - lost),
+            tangent: Matrix6::identity() * 30e3,
+        })
+    }
+}
+
+/// Rounding turns with no axes: it is held against the stress that there would be without the crack.
+#[test]
+fn a_point_that_breaks_in_its_first_step_is_isotropic() {
+    let report = check_isotropy(&Broken, &check()).unwrap();
+    assert!(report.worst > 0.0, "{report:?}");
 }
 
 #[test]
