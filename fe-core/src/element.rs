@@ -195,7 +195,9 @@ pub trait Element: Debug + Send + Sync {
     }
 
     /// Nodes of the 8-node quadrilateral to draw an interface as, see
-    /// [`interface_grid`](crate::output::interface_grid); `None` for everything that is no interface between faces.
+    /// [`interface_grid`](crate::output::interface_grid); `None` for everything that is no interface between faces. The
+    /// [samples](Self::sample) of one that draws it have the three components of
+    /// [`Interface`](crate::kinematics::Interface), others are drawn as NaN.
     fn interface_face(&self) -> Option<[NodeId; 8]> {
         None
     }

@@ -9,11 +9,14 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use common::{Brick, Elastic};
-use fe_core::element::Element;
+use fe_core::dof::Dof;
+use fe_core::element::{Element, ElementError, ElementSystem, EvaluationContext, PointSample};
 use fe_core::grid::GridBuilder;
-use fe_core::mesh::Mesh;
+use fe_core::material::{PointReport, StateVar};
+use fe_core::mesh::{Mesh, NodeId};
 use fe_core::model::Model;
-use fe_core::output::{DataArray, FieldSeries, OutputError, Pvd, UnstructuredGrid};
+use fe_core::output::{DataArray, FieldSeries, OutputError, Pvd, UnstructuredGrid, interface_grid};
+use fe_core::shape::quad8;
 use fe_core::state::StateStore;
 
 /// A folder of its own for each test.
@@ -233,4 +236,110 @@ fn a_failed_rewrite_leaves_the_collection_as_it_was() {
     pvd.add(2.0, &added).unwrap();
     let after = fs::read_to_string(&path).unwrap();
     assert_eq!(after.matches("<DataSet").count(), 2, "{after}");
+}
+
+/// A grid that no reader could read is not written; what is wrong is named. Names are escaped.
+#[test]
+fn grids_that_do_not_fit_together_are_refused_by_name() {
+    let pair = || UnstructuredGrid::new(vec![[0.0; 3], [1.0; 3]]);
+    let refused = |grid: &UnstructuredGrid| {
+        let error = grid.write(&mut Vec::new()).unwrap_err();
+        assert_eq!(error.kind(), std::io::ErrorKind::InvalidInput);
+        error.to_string()
+    };
+    let mut grid = pair();
+    grid.add_cell(3, &[0, 99]);
+    assert!(refused(&grid).contains("point 99; the grid has 2"));
+    let mut grid = pair();
+    grid.add_cell(25, &[0, 1]);
+    assert!(refused(&grid).contains("type 25 has 2 points instead of 20"));
+    let mut grid = pair();
+    let mut array = DataArray::new("<a & \"b\">", &["x&", "y"]);
+    array.values = vec![1.0];
+    grid.point_data.push(array);
+    let told = refused(&grid);
+    assert!(
+        told.contains("has 1 values instead of 4: 2 for each of 2 points"),
+        "{told}"
+    );
+    grid.point_data[0].values = vec![0.0; 4];
+    let mut out = Vec::new();
+    grid.write(&mut out).unwrap();
+    let text = String::from_utf8_lossy(&out);
+    assert!(text.contains("Name=\"&lt;a &amp; &quot;b&quot;>\""));
+    assert!(text.contains("ComponentName0=\"x&amp;\""));
+    grid.cell_data.push(DataArray::scalar("none"));
+    assert!(grid.write(&mut Vec::new()).is_ok());
+    grid.cell_data[0].values.push(1.0);
+    assert!(refused(&grid).contains("array none has 1 values instead of 0"));
+}
+
+/// Draws an interface, but of a law with one component.
+#[derive(Debug)]
+struct Odd([NodeId; 8]);
+
+impl Element for Odd {
+    fn nodes(&self) -> &[NodeId] {
+        &self.0
+    }
+
+    fn dofs(&self) -> &'static [Dof] {
+        &Dof::DISPLACEMENTS
+    }
+
+    fn state_len(&self) -> usize {
+        0
+    }
+
+    fn init_state(&self, _: &mut [f64]) {}
+
+    fn evaluate(
+        &self,
+        _: &[f64],
+        _: &[f64],
+        _: &mut [f64],
+        _: &EvaluationContext,
+        _: ElementSystem<'_>,
+    ) -> Result<(), ElementError> {
+        Ok(())
+    }
+
+    fn interface_face(&self) -> Option<[NodeId; 8]> {
+        Some(self.0)
+    }
+
+    fn sample(
+        &self,
+        _: &[f64],
+        _: &[f64],
+        visit: &mut dyn FnMut(PointSample<'_>),
+    ) -> Result<(), ElementError> {
+        const VARS: [StateVar; 1] = [StateVar::scalar("damage", "-")];
+        visit(PointSample {
+            position: [0.0; 3],
+            volume: 1.0,
+            strain: &[0.1],
+            stress: &[1.0],
+            report: PointReport::default(),
+            state_vars: &VARS,
+            state: &[],
+        });
+        Ok(())
+    }
+}
+
+/// What is no jump and no traction is drawn as NaN, and so is a history that is not there.
+#[test]
+fn an_interface_without_three_components_is_drawn_as_nan() {
+    let mesh = Mesh::new(quad8::NODES.map(|[x, y]| [x, y, 0.0]).to_vec()).unwrap();
+    let odd = Box::new(Odd(std::array::from_fn(|a| a)));
+    let model = Model::new(mesh, vec![odd]).unwrap();
+    let state = StateStore::new(model.elements());
+    let grid = interface_grid(&model, &[0.0; 24], &state).unwrap();
+    let named = |name| grid.cell_data.iter().find(|a| a.name == name).unwrap();
+    for (name, count) in [("jump", 3), ("traction", 3), ("damage", 1)] {
+        let values = &named(name).values;
+        assert!(values.len() == count && values.iter().all(|v| v.is_nan()));
+    }
+    assert_eq!(named("utilisation").values, [0.0]);
 }

@@ -15,8 +15,8 @@ use crate::state::StateStore;
 ///
 /// | name | components | unit |
 /// |---|---|---|
-/// | `jump` | 3: slip along both tangents, opening | mm |
-/// | `traction` | 3 | MPa |
+/// | `jump` | 3: slip along both tangents, opening; NaN unless the law is one of interfaces | mm |
+/// | `traction` | 3, likewise | MPa |
 /// | `slip_max`, `damage` | 1; NaN where the law has no internal variable of that name | mm, - |
 /// | `utilisation` | 1 | - |
 ///
@@ -49,8 +49,9 @@ pub fn interface_grid(
         }
         let mut mean = Mean::default();
         model.sample(e, u, state, &mut |s| mean.add(&s))?;
-        jump.values.extend(mean.jump.map(|v| v / mean.area));
-        traction.values.extend(mean.traction.map(|v| v / mean.area));
+        jump.values.extend(mean.jump.map(|v| v / mean.joined));
+        let tractions = mean.traction.map(|v| v / mean.joined);
+        traction.values.extend(tractions);
         for (array, sum) in histories.iter_mut().zip(mean.histories) {
             array.values.push(sum / mean.area);
         }
@@ -70,6 +71,8 @@ const HISTORIES: [&str; 2] = ["slip_max", "damage"];
 #[derive(Debug, Default)]
 struct Mean {
     area: f64,
+    /// Area of the points whose law is one of interfaces.
+    joined: f64,
     jump: [f64; 3],
     traction: [f64; 3],
     histories: [f64; 2],
@@ -81,14 +84,18 @@ impl Mean {
         let w = sample.volume;
         self.area += w;
         self.utilisation += w * sample.report.utilisation;
-        for k in 0..3 {
-            self.jump[k] += w * sample.strain[k];
-            self.traction[k] += w * sample.stress[k];
+        if [sample.strain.len(), sample.stress.len()] == [Interface::LEN; 2] {
+            self.joined += w;
+            for k in 0..Interface::LEN {
+                self.jump[k] += w * sample.strain[k];
+                self.traction[k] += w * sample.stress[k];
+            }
         }
         let labels = state_labels(sample.state_vars);
         for (sum, name) in self.histories.iter_mut().zip(HISTORIES) {
             let at = labels.iter().position(|label| label == name);
-            *sum += w * at.map_or(f64::NAN, |i| sample.state[i]);
+            let value = at.and_then(|i| sample.state.get(i));
+            *sum += w * value.copied().unwrap_or(f64::NAN);
         }
     }
 }

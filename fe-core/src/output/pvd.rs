@@ -72,7 +72,7 @@ impl Pvd {
 }
 
 /// Escapes what XML does not admit in an attribute.
-fn escape(text: &str) -> String {
+pub(super) fn escape(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('"', "&quot;")

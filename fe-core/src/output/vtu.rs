@@ -9,8 +9,13 @@ use std::io::{self, Write};
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 
+use super::pvd::escape;
+
 /// Uncompressed size of a block.
 const BLOCK: usize = 1 << 16;
+
+/// Points of the types of cells that are known here.
+const VTK_POINTS: [(u8, usize); 3] = [(3, 2), (23, 8), (25, 20)];
 
 /// One named array on points or cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,7 +70,7 @@ impl UnstructuredGrid {
         }
     }
 
-    /// Adds a cell of a type of VTK (3 line, 23 quadratic quadrilateral, 25 quadratic hexahedron).
+    /// Adds a cell of a type of VTK (3 line, 23 quadratic quadrilateral, 25 quadratic hexahedron) on points of the grid.
     pub fn add_cell(&mut self, vtk_type: u8, points: &[usize]) {
         self.connectivity.extend_from_slice(points);
         self.offsets.push(self.connectivity.len());
@@ -77,12 +82,53 @@ impl UnstructuredGrid {
         self.types.len()
     }
 
+    /// Refuses cells on points that are not there, or on fewer or more than their type has, and arrays of another length than
+    /// that of what they belong to.
+    fn check(&self) -> io::Result<()> {
+        let refuse = |text| Err(io::Error::new(io::ErrorKind::InvalidInput, text));
+        let points = self.points.len();
+        if let Some(point) = self.connectivity.iter().find(|p| **p >= points) {
+            return refuse(format!(
+                "a cell has point {point}; the grid has {points}, counted from 0"
+            ));
+        }
+        let mut start = 0;
+        for (cell, (&end, &kind)) in self.offsets.iter().zip(&self.types).enumerate() {
+            let found = end - std::mem::replace(&mut start, end);
+            let known = VTK_POINTS.iter().find(|(known, _)| *known == kind);
+            if let Some((_, asked)) = known.filter(|(_, asked)| *asked != found) {
+                return refuse(format!(
+                    "cell {cell} of type {kind} has {found} points instead of {asked}"
+                ));
+            }
+        }
+        let owned = [
+            (&self.point_data, points, "points"),
+            (&self.cell_data, self.cells(), "cells"),
+        ];
+        for (arrays, count, owners) in owned {
+            for array in arrays {
+                let (found, each) = (array.values.len(), array.components.len().max(1));
+                if found != count * each {
+                    return refuse(format!(
+                        "the array {} has {found} values instead of {}: {each} for each of {count} {owners}",
+                        array.name,
+                        count * each
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Writes the grid as the contents of a `.vtu` file.
     ///
     /// # Errors
     ///
-    /// Those of `out`.
+    /// [`io::ErrorKind::InvalidInput`] for a cell on points that are not there, or not as many as its type has, and for an array
+    /// with another number of values than its points or cells ask for; else those of `out`.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        self.check()?;
         let mut appended = Vec::new();
         let points: Vec<f64> = self.points.iter().flatten().copied().collect();
         writeln!(out, "<?xml version=\"1.0\"?>")?;
@@ -104,11 +150,12 @@ impl UnstructuredGrid {
         ] {
             writeln!(out, "<{tag}>")?;
             for array in arrays {
-                write!(out, "<DataArray type=\"Float64\" Name=\"{}\"", array.name)?;
+                let name = escape(array.name);
+                write!(out, "<DataArray type=\"Float64\" Name=\"{name}\"")?;
                 if array.components.len() > 1 {
                     write!(out, " NumberOfComponents=\"{}\"", array.components.len())?;
                     for (i, name) in array.components.iter().enumerate() {
-                        write!(out, " ComponentName{i}=\"{name}\"")?;
+                        write!(out, " ComponentName{i}=\"{}\"", escape(name))?;
                     }
                 }
                 finish(out, &mut appended, &floats(&array.values))?;
