@@ -96,6 +96,28 @@ pub enum MeshError {
     /// Lines of a box lie on one another or run backwards.
     #[error("block {0} has lines that do not ascend: sort them, each one once")]
     Lines(String),
+    /// A node lies so far from the origin that it cannot be told from others.
+    #[error(
+        "node {0} lies beyond 9e12 mm, where nodes cannot be told apart: give coordinates in mm, from an origin near the body"
+    )]
+    Far(NodeId),
+    /// A layer is asked for over a node of no face.
+    #[error(
+        "node {0} is on none of the faces that the layers lie over: build the layers over its faces, too"
+    )]
+    OffFaces(NodeId),
+    /// A layer is asked for at another distance than before.
+    #[error(
+        "layer {layer} lies at {known} mm, not at {distance} mm: give another distance a number of its own"
+    )]
+    Distance {
+        /// Number of the layer.
+        layer: usize,
+        /// Where it lies (mm).
+        known: f64,
+        /// Distance asked for (mm).
+        distance: f64,
+    },
     /// A coordinate is NaN or infinite.
     #[error("node {0} has a coordinate that is not finite")]
     NotFinite(NodeId),

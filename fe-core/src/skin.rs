@@ -72,6 +72,8 @@ pub struct Layers {
     /// Where a node goes per distance from the faces at it: d with n_i . d = 1 for their distinct normals.
     directions: BTreeMap<NodeId, [f64; 3]>,
     copies: BTreeMap<(NodeId, usize), NodeId>,
+    /// Distances (mm) of the layers.
+    distances: BTreeMap<usize, f64>,
 }
 
 /// The shortest d with n_i . d = 1 for all `normals`, in the least-squares sense: their sum where they are perpendicular.
@@ -89,6 +91,9 @@ fn away(normals: &[[f64; 3]]) -> [f64; 3] {
     let d = rows.svd(true, true).solve(&ones, SAME_NORMAL);
     d.map_or([0.0; 3], |d| [d[0], d[1], d[2]])
 }
+
+/// Distances closer than this share of them are one.
+const SAME_DISTANCE: f64 = 1e-9;
 
 /// Normals closer than this are one.
 const SAME_NORMAL: f64 = 1e-9;
@@ -110,15 +115,17 @@ impl Layers {
         Self {
             directions: normals.into_iter().map(|(id, n)| (id, away(&n))).collect(),
             copies: BTreeMap::new(),
+            distances: BTreeMap::new(),
         }
     }
 
     /// Nodes of layer number `layer`, `distance` (mm) from the face, over `nodes` of one of the faces; made
-    /// when asked for first. The distance of a layer number must not change.
+    /// when asked for first.
     ///
     /// # Errors
     ///
-    /// [`MeshError::NotFinite`].
+    /// [`MeshError::NotFinite`], [`MeshError::OffFaces`] for a node of none of the faces, [`MeshError::Distance`] for another
+    /// distance than that of the layer so far.
     pub fn nodes<const N: usize>(
         &mut self,
         mesh: &mut Mesh,
@@ -126,6 +133,15 @@ impl Layers {
         layer: usize,
         distance: f64,
     ) -> Result<[NodeId; N], MeshError> {
+        if let Some(&known) = self.distances.get(&layer)
+            && (known - distance).abs() > SAME_DISTANCE * known.abs()
+        {
+            return Err(MeshError::Distance {
+                layer,
+                known,
+                distance,
+            });
+        }
         let mut copies = nodes;
         for copy in &mut copies {
             let key = (*copy, layer);
@@ -133,12 +149,14 @@ impl Layers {
                 *copy = id;
                 continue;
             }
-            let direction = self.directions.get(copy).copied().unwrap_or_default();
-            let x = mesh.nodes()[*copy];
+            let off = MeshError::OffFaces(*copy);
+            let direction = *self.directions.get(copy).ok_or(off.clone())?;
+            let x = *mesh.nodes().get(*copy).ok_or(off)?;
             let id = mesh.add_node(std::array::from_fn(|k| x[k] + distance * direction[k]))?;
             self.copies.insert(key, id);
             *copy = id;
         }
+        self.distances.entry(layer).or_insert(distance);
         Ok(copies)
     }
 
@@ -201,6 +219,31 @@ mod tests {
                 assert!((distance - 0.1).abs() < 1e-12, "{distance}");
             }
         }
+    }
+
+    #[test]
+    fn layers_keep_to_their_faces_and_distances() {
+        let mut mesh = two_cells();
+        let faces = outer_faces(&mesh, &["a"]);
+        let mut layers = Layers::over(&faces[..1]);
+        let own = faces[0].nodes;
+        let other = faces
+            .iter()
+            .flat_map(|f| f.nodes)
+            .find(|n| !own.contains(n));
+        for off in [other.unwrap(), 9999] {
+            assert_eq!(
+                layers.nodes(&mut mesh, [off], 0, 0.1),
+                Err(MeshError::OffFaces(off))
+            );
+        }
+        let first = layers.nodes(&mut mesh, own, 0, 0.1).unwrap();
+        assert_eq!(layers.nodes(&mut mesh, own, 0, 0.1), Ok(first));
+        assert!(matches!(
+            layers.nodes(&mut mesh, own, 0, 0.7),
+            Err(MeshError::Distance { layer: 0, .. })
+        ));
+        assert!(layers.nodes(&mut mesh, own, 1, f64::NAN).is_err());
     }
 
     #[test]
