@@ -145,11 +145,19 @@ impl MixedMode {
     }
 
     /// Damage d (-) of a state of this law.
+    ///
+    /// # Panics
+    ///
+    /// For a state that is shorter.
     pub const fn damage(state: &[f64]) -> f64 {
         state[0]
     }
 
     /// Whether the bond of a point is lost: d = 1.
+    ///
+    /// # Panics
+    ///
+    /// For a state that is shorter than one of this law.
     pub fn is_debonded(&self, state: &[f64]) -> bool {
         Self::damage(state) >= 1.0
     }

@@ -82,21 +82,37 @@ impl SlipDamage {
     }
 
     /// Largest slip kappa (mm) of a state of this law.
+    ///
+    /// # Panics
+    ///
+    /// For a state that is shorter.
     pub const fn slip_max(state: &[f64]) -> f64 {
         state[0]
     }
 
     /// Damage d (-) of a state of this law.
+    ///
+    /// # Panics
+    ///
+    /// For a state that is shorter.
     pub const fn damage(state: &[f64]) -> f64 {
         state[1]
     }
 
     /// Whether the bond of a point is lost: kappa >= s_f.
+    ///
+    /// # Panics
+    ///
+    /// For a state that is shorter than one of this law.
     pub fn is_debonded(&self, state: &[f64]) -> bool {
         Self::slip_max(state) >= self.envelope.final_slip()
     }
 
     /// Whether the point has passed the peak of the curve: kappa > s0.
+    ///
+    /// # Panics
+    ///
+    /// For a state that is shorter than one of this law.
     pub fn is_softening(&self, state: &[f64]) -> bool {
         Self::slip_max(state) > self.envelope.peak_slip()
     }

@@ -64,6 +64,10 @@ impl Viscous {
     }
 
     /// Energy per area (N/mm) that the viscosity has swallowed in a state of this law.
+    ///
+    /// # Panics
+    ///
+    /// For a state that is shorter.
     pub fn viscous_energy(&self, state: &[f64]) -> f64 {
         state[self.law.state_len() + 3]
     }

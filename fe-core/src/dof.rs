@@ -97,6 +97,10 @@ impl DofMap {
     }
 
     /// Node and DOF of an index.
+    ///
+    /// # Panics
+    ///
+    /// For an index that is not below [`Self::len`].
     pub fn owner(&self, index: usize) -> (NodeId, Dof) {
         self.owner[index]
     }

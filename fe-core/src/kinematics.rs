@@ -20,6 +20,10 @@ pub trait Kinematics: Debug + Clone + Copy + Send + Sync + 'static {
     /// Names of the stress components, in order.
     const STRESS_LABELS: &'static [&'static str];
     /// Builds a vector from the first `LEN` entries of a slice.
+    ///
+    /// # Panics
+    ///
+    /// For fewer entries.
     fn vector(components: &[f64]) -> Self::Vector;
     /// The components of a vector.
     fn components(vector: &Self::Vector) -> &[f64];

@@ -110,6 +110,10 @@ impl MatrixValues {
     }
 
     /// y = A x on the given pattern.
+    ///
+    /// # Panics
+    ///
+    /// For values of another pattern, or vectors shorter than its number of equations.
     pub fn multiply(&self, pattern: &Sparsity, x: &[f64], y: &mut [f64]) {
         let upper = if self.is_symmetric() {
             &self.lower
@@ -131,6 +135,10 @@ impl MatrixValues {
     }
 
     /// The full matrix, for export and for libraries that take compressed columns.
+    ///
+    /// # Panics
+    ///
+    /// For values of another pattern.
     pub fn to_csc(&self, pattern: &Sparsity) -> sprs::CsMat<f64> {
         let upper = if self.is_symmetric() {
             &self.lower

@@ -120,6 +120,12 @@ impl Assembler {
         &self.free
     }
 
+    /// Number of the free equation of a DOF; `None` for one that is constrained or not there.
+    pub fn equation(&self, dof: usize) -> Option<usize> {
+        let equation = *self.equation.get(dof)?;
+        (equation != NONE).then_some(equation as usize)
+    }
+
     /// Rate of the prescribed pattern on every DOF (mm per unit of the load factor), zero on free ones.
     pub fn rate(&self) -> &[f64] {
         &self.rate

@@ -148,7 +148,8 @@ impl Conditions {
         &self.prescribed
     }
 
-    /// External force (N) on all DOFs at a load factor.
+    /// External force (N) on all DOFs at a load factor, on the first of them if `out` is shorter; what it has beyond is left as
+    /// it is.
     pub fn external(&self, lambda: f64, out: &mut [f64]) {
         for (o, (d, r)) in out.iter_mut().zip(self.dead.iter().zip(&self.reference)) {
             *o = d + lambda * r;

@@ -40,6 +40,14 @@ pub enum ModelError {
         /// Nodes there are.
         nodes: usize,
     },
+    /// An element is asked for that does not exist.
+    #[error("element {element} does not exist; the model has {elements} elements, counted from 0")]
+    NoSuchElement {
+        /// Element asked for.
+        element: usize,
+        /// Elements there are.
+        elements: usize,
+    },
     /// An element is built on no node.
     #[error("element {element} has no node: it could neither move nor be found")]
     NoNode {

@@ -165,6 +165,10 @@ impl Model {
     }
 
     /// Displacement (mm) of a node at the displacement `u` of all DOFs; zero where no element uses the DOF.
+    ///
+    /// # Panics
+    ///
+    /// For a `u` that is shorter than that.
     pub fn displacement(&self, node: NodeId, u: &[f64]) -> [f64; 3] {
         Dof::DISPLACEMENTS.map(|dof| {
             let (leader, factor) = self.followers.dof(node, dof);
@@ -174,6 +178,10 @@ impl Model {
     }
 
     /// Displacements (mm) of an element, gathered from the vector of all DOFs.
+    ///
+    /// # Panics
+    ///
+    /// For an element that is not there, or a vector that is shorter than that.
     pub fn gather(&self, element: usize, u: &[f64]) -> Vec<f64> {
         let dofs = self.dofs.element_dofs(self.elements[element].as_ref());
         dofs.iter().map(|&d| u[d as usize]).collect()
@@ -205,7 +213,8 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// [`ModelError::Element`], and [`ModelError::Foreign`] for displacements or a state of another model.
+    /// [`ModelError::Element`], [`ModelError::NoSuchElement`], and [`ModelError::Foreign`] for displacements or a state of
+    /// another model.
     pub fn sample(
         &self,
         element: usize,
@@ -213,6 +222,10 @@ impl Model {
         state: &StateStore,
         visit: &mut dyn FnMut(PointSample<'_>),
     ) -> Result<(), ModelError> {
+        let elements = self.elements.len();
+        if element >= elements {
+            return Err(ModelError::NoSuchElement { element, elements });
+        }
         self.admit_at(element..element + 1, u, state)?;
         self.elements[element]
             .sample(&self.gather(element, u), state.committed(element), visit)
@@ -220,6 +233,10 @@ impl Model {
     }
 
     /// Wraps an element's error with its place.
+    ///
+    /// # Panics
+    ///
+    /// For an element that is not there.
     pub fn locate(&self, element: usize, source: ElementError) -> ModelError {
         let node = self.elements[element].nodes()[0];
         ModelError::Element {
