@@ -4,9 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::dof::Dof;
 use crate::mesh::{Mesh, NodeId};
-
-/// Grid (mm) to which positions are rounded; those of one place are the same.
-const SAME: f64 = 1e-6;
+use crate::places::Places;
 
 /// Nodes whose displacement is that of another node, the leader, times a factor for each direction:
 /// u_k = s_k u_k(leader). A follower has no DOFs of its own, and a factor of zero holds it.
@@ -19,21 +17,26 @@ impl Followers {
     ///
     /// u(x, y, z) = u(x, y),  v(x, y, z) = v(x, y),  w(x, y, z) = z/z_leader w(x, y)
     ///
-    /// Nodes with z < 0, and nodes that the mesh does not have, are not of the half body and lead themselves.
+    /// Nodes within 5e-7 mm along x and y are at one (x, y). Nodes with z < 0, or beyond 9e12 mm, and nodes that the mesh does
+    /// not have, are not of the half body and lead themselves.
     pub fn uniform_across(mesh: &Mesh, nodes: impl IntoIterator<Item = NodeId>) -> Self {
-        let mut columns: BTreeMap<[i64; 2], Vec<NodeId>> = BTreeMap::new();
+        let mut places = Places::default();
+        let mut columns: Vec<Vec<NodeId>> = Vec::new();
         for node in nodes {
             let Some(&[x, y, z]) = mesh.nodes().get(node) else {
                 continue;
             };
-            if z >= 0.0 {
-                let place = [x, y].map(|c| (c / SAME).round() as i64);
-                columns.entry(place).or_default().push(node);
+            if z >= 0.0 && Places::within(&[x, y]) {
+                let column = places.number([x, y], columns.len());
+                if column == columns.len() {
+                    columns.push(Vec::new());
+                }
+                columns[column].push(node);
             }
         }
         let depth = |n: NodeId| mesh.nodes()[n][2];
         let mut followers = BTreeMap::new();
-        for nodes in columns.into_values() {
+        for nodes in columns {
             let Some(leader) = nodes
                 .iter()
                 .copied()
@@ -101,5 +104,15 @@ mod tests {
         let alone = mesh.block("other").unwrap().cells().next().unwrap()[3];
         assert_eq!(followers.of(alone), (alone, [1.0; 3]));
         assert!(Followers::default().is_empty());
+    }
+
+    /// Two nodes 2e-12 mm apart, on either side of where a coordinate is rounded, are of one column.
+    #[test]
+    fn a_column_is_one_whichever_way_it_is_rounded() {
+        let x = 1.000_000_5;
+        let nodes = vec![[x + 1e-12, 0.0, 1.0], [x - 1e-12, 0.0, 0.0]];
+        let followers = Followers::uniform_across(&Mesh::new(nodes).unwrap(), 0..2);
+        let all: Vec<_> = followers.iter().collect();
+        assert_eq!(all, [(1, 0, [1.0, 1.0, 0.0])]);
     }
 }

@@ -1,12 +1,8 @@
 //! Structured hex20 boxes that share their nodes where they touch.
 
-use std::collections::HashMap;
-
 use crate::mesh::{CellKind, Mesh, MeshError, NodeId};
+use crate::places::{MERGE, Places};
 use crate::shape::hex20;
-
-/// Nodes within half of this (mm) along every axis are one; those farther apart than one and a half of it are two.
-const MERGE: f64 = 1e-6;
 
 /// Builds a mesh of hex20 boxes from grid lines; boxes whose lines coincide on a common face share the
 /// nodes of that face.
@@ -24,7 +20,7 @@ const MERGE: f64 = 1e-6;
 #[derive(Debug, Default)]
 pub struct GridBuilder {
     nodes: Vec<[f64; 3]>,
-    at: HashMap<[i64; 3], NodeId>,
+    at: Places<3>,
     blocks: Vec<(String, Vec<NodeId>)>,
     /// The first block whose lines do not ascend.
     unordered: Option<String>,
@@ -67,29 +63,16 @@ impl GridBuilder {
 
     /// The node at a position, new unless there is one.
     fn node(&mut self, position: [f64; 3]) -> NodeId {
-        // A node next door may have been rounded either way, so both neighbours are asked.
-        let scaled = position.map(|c| c / MERGE);
-        if !scaled.iter().all(|c| c.is_finite()) {
-            // Not rounded to a place of others: the mesh refuses it.
+        let next = self.nodes.len();
+        if !Places::within(&position) {
+            // Not rounded to a place of others: refused in the end.
             self.nodes.push(position);
-            return self.nodes.len() - 1;
+            return next;
         }
-        for corner in 0..8 {
-            let key = std::array::from_fn(|k| {
-                let up = corner >> k & 1 == 1;
-                (if up {
-                    scaled[k].ceil()
-                } else {
-                    scaled[k].floor()
-                }) as i64
-            });
-            if let Some(&id) = self.at.get(&key) {
-                return id;
-            }
+        let id = self.at.number(position, next);
+        if id == next {
+            self.nodes.push(position);
         }
-        let id = self.nodes.len();
-        self.at.insert(scaled.map(|c| c.round() as i64), id);
-        self.nodes.push(position);
         id
     }
 
@@ -97,10 +80,15 @@ impl GridBuilder {
     ///
     /// # Errors
     ///
-    /// [`MeshError::NotFinite`] for a line that is not a number, [`MeshError::Lines`] for lines that do not ascend,
+    /// [`MeshError::NotFinite`] for a line that is not a number, [`MeshError::Far`] for one beyond 9e12 mm, where nodes cannot be
+    /// told apart, [`MeshError::Lines`] for lines that do not ascend,
     /// [`MeshError::NoCell`] for a block without a cell: boxes of fewer than two lines in some direction.
     pub fn finish(self) -> Result<Mesh, MeshError> {
+        let far = self.nodes.iter().position(|x| !Places::within(x));
         let mut mesh = Mesh::new(self.nodes)?;
+        if let Some(node) = far {
+            return Err(MeshError::Far(node));
+        }
         if let Some(block) = self.unordered {
             return Err(MeshError::Lines(block));
         }

@@ -40,6 +40,7 @@ pub mod material;
 pub mod mesh;
 pub mod model;
 pub mod output;
+mod places;
 pub mod point;
 pub mod points;
 pub mod principal;

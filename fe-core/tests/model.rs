@@ -379,3 +379,44 @@ fn the_state_store_commits_rolls_back_and_latches() {
         assert_eq!(other, before);
     }
 }
+
+/// Beyond 9e12 mm nodes are not told apart any more, and would be merged.
+#[test]
+fn lines_too_far_from_the_origin_are_refused() {
+    let mut grid = GridBuilder::new();
+    grid.add_box("far", &[0.0, 8e12], &[0.0, 1.0], &[0.0, 1.0]);
+    assert_eq!(grid.finish().unwrap().nodes().len(), 20);
+    let mut grid = GridBuilder::new();
+    grid.add_box("far", &[1e13, 2e13, 3e13], &[0.0, 1e13], &[0.0, 1e13]);
+    assert!(matches!(grid.finish(), Err(MeshError::Far(0))));
+}
+
+#[test]
+fn an_element_that_is_not_there_is_not_sampled() {
+    let mesh = cube();
+    let elements = bricks(&mesh);
+    let model = Model::new(mesh, elements).unwrap();
+    let state = StateStore::new(model.elements());
+    let sampled = model.sample(7, &[0.0; 60], &state, &mut |_| ());
+    let expected = ModelError::NoSuchElement {
+        element: 7,
+        elements: 1,
+    };
+    assert_eq!(sampled, Err(expected));
+}
+
+#[test]
+fn a_constrained_dof_has_no_equation() {
+    let mesh = cube();
+    let elements = bricks(&mesh);
+    let model = Model::new(mesh, elements).unwrap();
+    let mut conditions = Conditions::new(&model);
+    conditions.fix(&model, 3, Dof::Uy).unwrap();
+    let fixed = model.dof(3, Dof::Uy).unwrap();
+    let assembler = Assembler::new(&model, &conditions).unwrap();
+    assert_eq!(assembler.equation(fixed), None);
+    assert_eq!(assembler.equation(60), None);
+    for (equation, &dof) in assembler.free().iter().enumerate() {
+        assert_eq!(assembler.equation(dof as usize), Some(equation));
+    }
+}
