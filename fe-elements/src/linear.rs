@@ -72,12 +72,14 @@ impl Linear {
         view.add_force(&u, &mut expected);
         let largest = own.iter().fold(0.0_f64, |a, f| a.max(f.abs()));
         let misses = own.iter().zip(&expected).map(|(a, b)| (a - b).abs());
-        let worst = force
-            .iter()
-            .map(|f| f.abs())
-            .chain(misses)
-            .fold(0.0, f64::max);
-        if worst > ROUNDING * largest {
+        // What is no number is the worst.
+        let worse = |a: f64, b: f64| if a >= b { a } else { b };
+        let worst = force.iter().map(|f| f.abs()).chain(misses).fold(0.0, worse);
+        if let Some(bad) = view.0.iter().find(|k| !k.is_finite()) {
+            let what = "stiffness of a linear element (N/mm)";
+            return Err(refuse(what, *bad, "finite numbers"));
+        }
+        if worst.is_nan() || worst > ROUNDING * largest {
             return Err(refuse(
                 "force of a linear element beside K u (N)",
                 worst,

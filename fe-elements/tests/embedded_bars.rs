@@ -355,3 +355,23 @@ fn impossible_bars_are_refused() {
         assert!(message.contains(expected), "{message}");
     }
 }
+
+/// A piece made by hand, without length or direction, is refused by name.
+#[test]
+fn a_piece_without_a_direction_does_not_slip() {
+    let mesh = block(0.0, 1);
+    let hosts = Hosts::new(&mesh, &["block"]).unwrap();
+    let bar = bar(vec![[5.0, 15.0, 15.0], [25.0, 15.0, 15.0]]);
+    let piece = hosts.cut(&bar).unwrap().remove(0);
+    assert!(hosts.slipping(&bar, &piece, [100, 101, 102]).is_ok());
+    let mut numberless = piece.clone();
+    numberless.direction[0] = f64::NAN;
+    let mut long = piece.clone();
+    long.direction *= 2.0;
+    let mut empty = piece.clone();
+    empty.ends[1] = empty.ends[0];
+    for wrong in [numberless, long, empty] {
+        let error = hosts.slipping(&bar, &wrong, [100, 101, 102]).unwrap_err();
+        assert!(error.to_string().contains("length of a piece"), "{error}");
+    }
+}

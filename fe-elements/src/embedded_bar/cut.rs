@@ -43,6 +43,23 @@ pub struct Piece {
     pub start: f64,
 }
 
+impl Piece {
+    /// Refuses a piece without length, or whose direction is no unit vector along it.
+    pub(super) fn check(&self, bar: &str) -> Result<(), ElementError> {
+        let length = (self.ends[1] - self.ends[0]).dot(&self.direction);
+        let unit = (self.direction.norm() - 1.0).abs() <= 1e-6;
+        if unit && length.is_finite() && length > 0.0 {
+            return Ok(());
+        }
+        Err(ElementError::Input {
+            what: format!("bar {bar}: length of a piece along its direction (mm)"),
+            value: length,
+            allowed: "(0, inf), along a unit vector".into(),
+            remedy: "take the pieces that Hosts::cut gives".into(),
+        })
+    }
+}
+
 /// A segment a + t (b - a), t in [0, 1].
 #[derive(Debug, Clone, Copy)]
 struct Segment {

@@ -180,7 +180,8 @@ impl Hosts {
     ///
     /// # Errors
     ///
-    /// [`ElementError::NoHost`] where the piece does not lie in its host, [`ElementError::Input`] for an impossible bar.
+    /// [`ElementError::NoHost`] where the piece does not lie in its host, [`ElementError::Input`] for an impossible bar, or a
+    /// piece without length, or whose direction is no unit vector from its first end to the second.
     pub fn slipping(
         &self,
         bar: &Bar,
@@ -193,6 +194,7 @@ impl Hosts {
         if let Some(end) = piece.ends.iter().find(|end| !host.holds(**end)) {
             return Err(ElementError::no_host(&bar.name, *end));
         }
+        piece.check(&bar.name)?;
         EmbeddedBar::slipping(bar, host, piece, own)
     }
 
