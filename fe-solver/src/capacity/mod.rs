@@ -70,13 +70,13 @@ pub struct Capacity {
 }
 
 impl Capacity {
-    /// Reads a path; `None` for an empty one.
+    /// Reads a path; `None` for an empty one. A load that is no number is passed over; the [`Verdict`] trusts no such path.
     pub fn of(path: &[PathPoint]) -> Option<Self> {
         let mut best = 0;
         let mut fell = false;
         let mut first_drop = None;
         for (i, point) in path.iter().enumerate() {
-            if point.load > path[best].load {
+            if point.load > path[best].load || path[best].load.is_nan() {
                 best = i;
             }
             let fall = relative_fall(path[best].load, point.load);

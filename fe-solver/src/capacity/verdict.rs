@@ -74,6 +74,8 @@ pub struct Verdict {
 impl Verdict {
     /// Judges the path up to the peak of `capacity`; of the whole path if it has no such point.
     ///
+    /// What is no number counts as the worst: no trust where a load is none, or up to the peak another quantity.
+    ///
     /// No trust when more than 10 % of the steps up to the peak are flagged, a flagged residual exceeds
     /// 0.03, or P* differs from P by more than 3 % at the last step up to the peak that met the
     /// criterion. That step is no jump: across a jump P* is the work of forces no static state
@@ -86,9 +88,8 @@ impl Verdict {
     pub fn of(path: &[PathPoint], capacity: &Capacity) -> Self {
         let before = path.get(..=capacity.peak).unwrap_or(path);
         let steps = before.len();
-        let worst = |points: &mut dyn Iterator<Item = &PathPoint>| {
-            points.map(|p| p.residual).fold(0.0, f64::max)
-        };
+        let worst =
+            |points: &mut dyn Iterator<Item = &PathPoint>| largest(points.map(|p| p.residual));
         let flagged = before.iter().filter(|p| p.flagged).count();
         let jumps = (0..steps).filter(|&i| is_jump(path, i)).count();
         let worst_flagged = worst(&mut before.iter().filter(|p| p.flagged));
@@ -100,10 +101,13 @@ impl Verdict {
         let relative = last.map_or(f64::NAN, |p| {
             ((p.work_conjugate_load - p.load) / p.load).abs()
         });
-        let (trust, reason) = if flagged as f64 > MAX_FLAGGED_SHARE * steps as f64 {
+        let (trust, reason) = if let Some(step) = path.iter().position(|p| p.load.is_nan()) {
+            let reason = format!("the load of step {step}, counted from 0, is not a number");
+            (Trust::Low, reason)
+        } else if flagged as f64 > MAX_FLAGGED_SHARE * steps as f64 {
             let reason = format!("{flagged} of {steps} steps up to the peak miss the criterion");
             (Trust::Low, reason)
-        } else if worst_flagged > MAX_FLAGGED_RESIDUAL {
+        } else if beyond(worst_flagged, MAX_FLAGGED_RESIDUAL) {
             let reason =
                 format!("a step before the peak has a relative residual of {worst_flagged:.1e}");
             (Trust::Low, reason)
@@ -117,7 +121,7 @@ impl Verdict {
             let reason = "no loaded step up to the peak meets the criterion".to_owned();
             (Trust::Low, reason)
         } else if let Some((kinetic, unbalanced)) = moving(before) {
-            let trust = if kinetic > MAX_KINETIC {
+            let trust = if beyond(kinetic, MAX_KINETIC) || unbalanced.is_nan() {
                 Trust::Low
             } else {
                 Trust::Limited
@@ -128,7 +132,8 @@ impl Verdict {
             );
             (trust, reason)
         } else if let Some(viscous) = before.last().and_then(|p| p.viscous) {
-            let trust = if viscous > MAX_VISCOUS || unbalanced > MAX_FLAGGED_RESIDUAL {
+            let trust = if beyond(viscous, MAX_VISCOUS) || beyond(unbalanced, MAX_FLAGGED_RESIDUAL)
+            {
                 Trust::Low
             } else {
                 Trust::Limited
@@ -139,8 +144,8 @@ impl Verdict {
                 100.0 * viscous
             );
             (trust, reason)
-        } else if unbalanced > MAX_UNBALANCED {
-            let trust = if unbalanced > MAX_FLAGGED_RESIDUAL {
+        } else if beyond(unbalanced, MAX_UNBALANCED) {
+            let trust = if beyond(unbalanced, MAX_FLAGGED_RESIDUAL) {
                 Trust::Low
             } else {
                 Trust::Limited
@@ -197,7 +202,7 @@ impl Verdict {
     /// Lowers the trust to limited where cracked concrete has carried more than [`LOCKING`] times its tensile strength,
     /// `ratio` times, on the way to the peak. The reason is added to.
     pub fn limit_by_locking(&mut self, ratio: f64) {
-        if ratio > LOCKING {
+        if beyond(ratio, LOCKING) {
             self.limit(&format!(
                 "cracked concrete carries up to {ratio:.2} times its tensile strength: cracks lock"
             ));
@@ -257,9 +262,19 @@ fn moving(path: &[PathPoint]) -> Option<(f64, f64)> {
     let near = APPROACH * path.last()?.load;
     let from = path.iter().position(|p| p.load >= near)?;
     let near = &path[from..];
-    let kinetic = near.iter().filter_map(|p| p.kinetic).reduce(f64::max)?;
-    let residual = near.iter().map(|p| p.residual).fold(0.0, f64::max);
-    Some((kinetic, residual))
+    near.iter().find(|p| p.kinetic.is_some())?;
+    let kinetic = largest(near.iter().filter_map(|p| p.kinetic));
+    Some((kinetic, largest(near.iter().map(|p| p.residual))))
+}
+
+/// Whether a value exceeds a limit, as one that is no number does.
+fn beyond(value: f64, limit: f64) -> bool {
+    value.is_nan() || value > limit
+}
+
+/// Largest of values that are not negative; NaN if one of them is.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |a, b| if beyond(b, a) && !a.is_nan() { b } else { a })
 }
 
 #[cfg(test)]
@@ -348,6 +363,37 @@ mod tests {
             assert_eq!(verdict.trust, expected, "{ratio}");
             assert_eq!(verdict.reason.contains("1.46"), ratio > LOCKING);
         }
+    }
+
+    #[test]
+    fn what_is_no_number_is_not_trusted() {
+        type Spoil = fn(&mut PathPoint);
+        let spoils: [(usize, Spoil); 6] = [
+            (3, |p| p.residual = f64::NAN),
+            (3, |p| (p.residual, p.flagged) = (f64::NAN, true)),
+            (3, |p| p.load = f64::NAN),
+            (0, |p| p.load = f64::NAN),
+            (29, |p| p.load = f64::NAN),
+            (28, |p| p.work_conjugate_load = f64::NAN),
+        ];
+        for (at, spoil) in spoils {
+            let mut path = peaked();
+            spoil(&mut path[at]);
+            assert_eq!(Capacity::of(&path).unwrap().peak, 28);
+            assert_eq!(trust(&path), Trust::Low, "{:?}", path[at]);
+        }
+        let lags: [fn(&mut PathPoint); 2] = [
+            |p| p.kinetic = Some(f64::NAN),
+            |p| p.viscous = Some(f64::NAN),
+        ];
+        for spoil in lags {
+            let mut path = peaked();
+            spoil(&mut path[28]);
+            assert_eq!(trust(&path), Trust::Low, "{:?}", path[28]);
+        }
+        let mut verdict = Verdict::of(&peaked(), &Capacity::of(&peaked()).unwrap());
+        verdict.limit_by_locking(f64::NAN);
+        assert_eq!(verdict.trust, Trust::Limited);
     }
 
     #[test]
