@@ -27,6 +27,9 @@
 //! - Node order of the VTK quadratic hexahedron and quadrilateral, see [`mesh::CellKind`].
 //! - `f = internal force - external force` vanishes in equilibrium.
 
+/// Vectors and matrices of laws, elements and meshes, in the version that this crate takes them from.
+pub use nalgebra;
+
 pub mod assembly;
 pub mod check;
 pub mod dof;

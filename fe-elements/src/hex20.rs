@@ -43,7 +43,7 @@ pub enum BandWidth {
     CubeRoot,
     /// factor sqrt(V/extent along the normal): sqrt(hx hy) of a box for normal z and factor 1.
     InPlane {
-        /// Normal of the plane of the cracks' traces, of any length.
+        /// Normal of the plane of the cracks' traces, of any length but zero.
         normal: [f64; 3],
         /// Factor on the side of the equivalent square.
         factor: f64,
@@ -57,7 +57,9 @@ impl BandWidth {
         match self {
             Self::CubeRoot => (volume / points as f64).cbrt(),
             Self::InPlane { normal, factor } => {
-                let n = Vector3::from(normal).normalize();
+                let n = Vector3::from(normal);
+                // Squares of what is very large or very small are no numbers, or none at all.
+                let n = (n / n.amax()).normalize();
                 let along = coords.map(|x| n.dot(&Vector3::from(x)));
                 let extent = along.iter().fold(f64::MIN, |a, &b| a.max(b))
                     - along.iter().fold(f64::MAX, |a, &b| a.min(b));

@@ -5,7 +5,8 @@ use fe_core::shape::{hex20, quad8, quadrature};
 use nalgebra::Vector3;
 
 /// Nodal forces (N) of a body force `density` (N/mm3) on a 20-node hexahedron, f_a = int N_a b dV, with
-/// 3 x 3 x 3 points.
+/// 3 x 3 x 3 points. The cell is not checked, as [`Hex20::new`](crate::Hex20::new) does: where it is turned inside out, its
+/// volume and the forces change their sign.
 pub fn body_force(
     nodes: &[NodeId; 20],
     coords: &[[f64; 3]; 20],

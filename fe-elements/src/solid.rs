@@ -60,7 +60,7 @@ impl<I: Interpolation> SolidElement<I> {
         positive(
             "crack-band width (mm)",
             band_width,
-            "give a positive width, or a normal that is not zero",
+            "give a positive width or factor, and a normal of finite numbers that is not zero",
         )?;
         law.admit(&PointContext::new(band_width))
             .map_err(|source| ElementError::Material { point: 0, source })?;

@@ -42,6 +42,16 @@ fn crack_band_widths() {
             in_plane([0.0, 0.0, -3.0]),
             0.8 * 2400.0_f64.sqrt(),
         ),
+        (
+            HexRule::Reduced,
+            in_plane([0.0, 0.0, 1e-200]),
+            0.8 * 2400.0_f64.sqrt(),
+        ),
+        (
+            HexRule::Reduced,
+            in_plane([0.0, 0.0, 1e200]),
+            0.8 * 2400.0_f64.sqrt(),
+        ),
         (HexRule::Full, BandWidth::Fixed(25.0), 25.0),
     ] {
         let element = build(&cell(), rule, band).unwrap();
@@ -60,7 +70,16 @@ fn impossible_widths_are_refused() {
         normal: [0.0; 3],
         factor: 1.0,
     };
-    for band in [BandWidth::Fixed(0.0), BandWidth::Fixed(f64::NAN), flat] {
+    let numberless = BandWidth::InPlane {
+        normal: [f64::NAN, 0.0, 1.0],
+        factor: 1.0,
+    };
+    for band in [
+        BandWidth::Fixed(0.0),
+        BandWidth::Fixed(f64::NAN),
+        flat,
+        numberless,
+    ] {
         let error = build(&cell(), HexRule::Reduced, band).unwrap_err();
         assert!(error.to_string().contains("crack-band width"), "{error}");
     }

@@ -5,6 +5,9 @@
 //! step control goes on with, and what recorders were told. Entries accepted again in order, without iterations,
 //! bring a stage to the same state to the last bit; only then does the driver take over.
 //!
+//! The format in which entries are kept must give back every bit of a number, and infinity, which a residual may be: postcard
+//! does, JSON does not (infinity becomes null, which is no number when it is read).
+//!
 //! Drivers keep nothing of their own from step to step, or give it as their [memory](crate::driver::Driver::memory).
 //! [`Automatic`](crate::automatic::Automatic) gives it under imposed displacements; under forces it goes on from control
 //! begun anew, and the path may be another one. Where the negative pivots are not counted after every step, a driver with a

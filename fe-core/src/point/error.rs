@@ -65,11 +65,12 @@ pub enum PointError {
         /// What the law said.
         source: MaterialError,
     },
-    /// The prescribed stress was not reached, even in the shortest sub-step.
+    /// The prescribed stress was not reached, even in the shortest sub-step: past a peak, or with a tangent that is wrong or no
+    /// number.
     #[error(
         "segment {segment}, step {step}: {component} misses its prescribed value by {residual:.4e} MPa \
          (allowed {tolerance:.1e} MPa) after {iterations} iterations; past a peak, prescribe the strain \
-         of this component instead"
+         of this component instead; otherwise check that the tangent of the law is finite and right"
     )]
     NoConvergence {
         /// Segment.
