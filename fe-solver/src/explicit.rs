@@ -24,11 +24,11 @@ use crate::stage::Stage;
 /// Settings of [`Explicit`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExplicitSettings {
-    /// Periods of the lowest frequency per unit of the load factor.
+    /// Periods of the lowest frequency per unit of the load factor, 1e6 at most.
     pub periods: f64,
     /// Damping xi of the lowest frequency, of critical.
     pub damping: f64,
-    /// Time step; stable below 2.
+    /// Time step; stable below 2. Not below 1e-3, with which a run would hardly end.
     pub time_step: f64,
     /// Periods over which the load factor gathers speed.
     pub ramp: f64,
@@ -44,6 +44,12 @@ impl Default for ExplicitSettings {
         }
     }
 }
+
+/// Most periods per unit of the load factor: a motion of more would not end.
+const MAX_PERIODS: f64 = 1e6;
+
+/// Shortest time step.
+const LEAST_TIME_STEP: f64 = 1e-3;
 
 /// Share of its speed with which the load factor starts.
 const FIRST_SPEED: f64 = 0.05;
@@ -79,8 +85,8 @@ impl Explicit {
     ///
     /// # Errors
     ///
-    /// [`SolverError::Setting`] for periods or a ramp that are no positive numbers, a damping outside [0, 1] or a time step
-    /// outside (0, 2).
+    /// [`SolverError::Setting`] for periods outside (0, 1e6], a ramp that is no positive number, a damping outside [0, 1] or a
+    /// time step outside [1e-3, 2).
     pub fn new(settings: ExplicitSettings) -> Result<Self, SolverError> {
         let ExplicitSettings {
             periods,
@@ -88,11 +94,12 @@ impl Explicit {
             time_step,
             ramp,
         } = settings;
-        SolverError::positive("periods", periods)?;
+        let fits = periods > 0.0 && periods <= MAX_PERIODS;
+        SolverError::setting(("periods", periods), "(0, 1e6]", fits)?;
         let fits = (0.0..=1.0).contains(&damping);
         SolverError::setting(("damping", damping), "[0, 1]", fits)?;
-        let fits = time_step > 0.0 && time_step < 2.0;
-        SolverError::setting(("time_step", time_step), "(0, 2)", fits)?;
+        let fits = (LEAST_TIME_STEP..2.0).contains(&time_step);
+        SolverError::setting(("time_step", time_step), "[1e-3, 2)", fits)?;
         SolverError::positive("ramp", ramp)?;
         Ok(Self {
             settings,

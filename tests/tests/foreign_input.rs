@@ -293,6 +293,20 @@ fn a_motion_that_would_not_end_or_blow_up_is_refused() {
             },
         ),
         (
+            "periods",
+            ExplicitSettings {
+                periods: 1e18,
+                ..good
+            },
+        ),
+        (
+            "time_step",
+            ExplicitSettings {
+                time_step: 1e-18,
+                ..good
+            },
+        ),
+        (
             "damping",
             ExplicitSettings {
                 damping: -0.1,

@@ -33,6 +33,9 @@ pub const MAX_FLAGGED: usize = 10;
 /// reactions vanish, it may come to some hundreds.
 const UNBALANCED: f64 = 1e3;
 
+/// Share of the end below which no step is allowed: their sum is near rounding, and as many would be no run.
+const LEAST_SHARE: f64 = 1e-13;
+
 /// Settings of the step control; lengths in units of the load factor, or of what the path constraint of the driver measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepControl {
@@ -43,7 +46,7 @@ pub struct StepControl {
     /// Share of the load factor reached that a step may take where this is more than `longest`; 0 keeps
     /// `longest` throughout.
     pub longest_share: f64,
-    /// Shortest step.
+    /// Shortest step, 1e-13 of the end at least.
     pub shortest: f64,
     /// Load factor to be added by this run; under a path constraint the length of its path.
     pub end: f64,
@@ -119,6 +122,11 @@ impl StepControl {
             ("shortest step", self.shortest),
             "(0, first and longest step]",
             fits,
+        )?;
+        SolverError::setting(
+            ("shortest step over the end", self.shortest / self.end),
+            "[1e-13, inf)",
+            self.shortest >= LEAST_SHARE * self.end,
         )
     }
 

@@ -164,6 +164,14 @@ fn lengths_that_lead_nowhere_are_refused_by_name() {
             },
         ),
         (
+            "shortest step over the end",
+            StepControl {
+                initial: 1e-18,
+                shortest: 1e-18,
+                ..good
+            },
+        ),
+        (
             "end",
             StepControl {
                 end: f64::INFINITY,
