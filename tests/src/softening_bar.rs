@@ -56,7 +56,7 @@ pub fn bar(length: f64, n: usize) -> (Model, Conditions) {
 ///
 /// For a length that is not positive.
 pub fn banded(length: f64, n: usize, band: f64) -> (Model, Conditions) {
-    pulled(length, n, band, TensionSoftening::Linear)
+    pulled(length, n, (0, band), TensionSoftening::Linear)
 }
 
 /// A bar of `n` cells, the first of which cracks, with exponential softening, sigma = ft exp(-(e - ft/E)/e_f) over the strain e of
@@ -66,11 +66,22 @@ pub fn banded(length: f64, n: usize, band: f64) -> (Model, Conditions) {
 ///
 /// For a length that is not positive.
 pub fn exponential(length: f64, n: usize) -> (Model, Conditions) {
-    pulled(length, n, length / n as f64, TensionSoftening::Exponential)
+    let first = (0, length / n as f64);
+    pulled(length, n, first, TensionSoftening::Exponential)
 }
 
-fn pulled(length: f64, n: usize, band: f64, softening: TensionSoftening) -> (Model, Conditions) {
-    let strengths: Vec<_> = (0..n).map(|i| (i == 0).then_some(STRENGTH)).collect();
+/// A bar of which the cell `crack` cracks, in a band of a width (mm).
+///
+/// # Panics
+///
+/// For a length that is not positive.
+pub fn pulled(
+    length: f64,
+    n: usize,
+    (crack, band): (usize, f64),
+    softening: TensionSoftening,
+) -> (Model, Conditions) {
+    let strengths: Vec<_> = (0..n).map(|i| (i == crack).then_some(STRENGTH)).collect();
     let model = cracking(length, &strengths, (band, softening));
     let mut conditions = held(&model);
     push_faces(

@@ -282,12 +282,7 @@ fn long_strip_through_its_snap_back() {
         stop: &|r| r[2] > 0.999 * FINAL,
     };
     let mut stage = Stage::new(&strip.model, conditions, &mut state, start).unwrap();
-    let equation = stage
-        .assembler()
-        .free()
-        .iter()
-        .position(|&d| d as usize == free)
-        .unwrap();
+    let equation = stage.assembler().equation(free).unwrap();
     let slip = StepControl {
         longest: 2e-3,
         criterion: 1e-7,

@@ -7,15 +7,19 @@
 
 use fe_core::dof::Dof;
 use fe_core::model::{Conditions, Model};
+use fe_core::state::StateStore;
 use fe_core::testing::{Worst, below, counted, curve, within_share};
+use fe_materials::fixed_crack::TensionSoftening;
 use fe_solver::control::StepControl;
 use fe_solver::error::SolverError;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings};
-use fe_solver::path::FreeDisplacement;
+use fe_solver::path::{FreeDisplacement, Opening};
+use fe_solver::recorder::{Continue, Recorder, StepView};
 use fe_solver::secant::SecantAnderson;
+use fe_solver::stage::Stage;
 use fe_tests::mesh::nodes_where;
 use fe_tests::softening_bar::{
-    AREA, ENERGY, OPENING, STRENGTH, YOUNG, banded, bar, exponential, held, moved,
+    AREA, ENERGY, OPENING, STRENGTH, YOUNG, banded, bar, exponential, held, moved, pulled,
 };
 use fe_tests::solve::run;
 
@@ -99,6 +103,49 @@ fn falling_branch_and_dissipation() {
             let points = path.iter().step_by(5).map(|[stress, end]| [*end, *stress]);
             curve(&format!("softening bar, {length} mm"), points);
         }
+    }
+}
+
+/// Protects the control of a crack opening: of a bar of 1000 mm the cell in the middle cracks, and the ends of this cell move
+/// apart. Targets: peak ft, slope after it 3630 MPa/mm, though the end moves back, both as above.
+#[test]
+fn a_crack_in_the_middle_is_followed_by_its_opening() {
+    let (length, n) = (1000.0, 21);
+    let width = length / n as f64;
+    let (model, conditions) = pulled(length, n, (10, width), TensionSoftening::Linear);
+    let node = |place: f64| nodes_where(model.mesh(), |x| (x[0] - place).abs() < 1e-9)[0];
+    let sides = [10.0, 11.0].map(|cells| (node(cells * width), Dof::Ux));
+    let end = model.dof(node(length), Dof::Ux).unwrap();
+    let mut state = StateStore::new(model.elements());
+    let rest = vec![0.0; model.dofs().len()];
+    let mut stage = Stage::new(&model, conditions, &mut state, rest).unwrap();
+    let constraint = Box::new(Opening::between(&stage, sides).unwrap());
+    let mut newton = NewtonRaphson::with_constraint(NewtonSettings::default(), constraint);
+    let control = StepControl {
+        criterion: 1e-9,
+        ..StepControl::new(OPENING / 200.0, 0.98 * OPENING)
+    };
+    let mut points = Points(Vec::new(), end);
+    control.run(&mut stage, &mut newton, &mut points).unwrap();
+    let path = points.0;
+    let peak = (0..path.len())
+        .max_by(|&a, &b| path[a][0].total_cmp(&path[b][0]))
+        .unwrap();
+    let what = "peak (MPa), crack in the middle, by its opening";
+    within_share(what, path[peak][0], STRENGTH, 5e-3);
+    let [[s0, u0], [s1, u1]] = [path[peak + 1], path[path.len() - 1]];
+    let what = "slope after the peak (MPa/mm), crack in the middle, by its opening";
+    within_share(what, (s1 - s0) / (u1 - u0), 3630.0, 3e-3);
+}
+
+/// Load factor and displacement of a DOF at every step.
+struct Points(Vec<[f64; 2]>, usize);
+
+impl Recorder for Points {
+    fn step(&mut self, view: &StepView<'_>) -> std::io::Result<Continue> {
+        self.0
+            .push([view.lambda, view.stage.displacement()[self.1]]);
+        Ok(Continue::Yes)
     }
 }
 

@@ -8,8 +8,12 @@ mod linear;
 mod load_factor;
 mod loaded_displacement;
 mod mode;
+mod opening;
 
 use std::fmt::Debug;
+
+use fe_core::dof::Dof;
+use fe_core::mesh::NodeId;
 
 use crate::error::SolverError;
 use crate::stage::Stage;
@@ -21,6 +25,7 @@ pub use free_displacement::FreeDisplacement;
 pub use load_factor::LoadFactor;
 pub use loaded_displacement::LoadedDisplacement;
 pub use mode::Mode;
+pub use opening::Opening;
 
 /// Linearisation of a path constraint g(du, dlambda) = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,6 +73,21 @@ pub trait PathConstraint: Debug + Send {
     /// Value and derivatives at the increment so far; writes dg/du into `gradient`, zeroed before. At a zero
     /// increment it is the predictor that is asked for.
     fn linearise(&self, du: &[f64], dlambda: f64, gradient: &mut [f64]) -> Border;
+}
+
+/// Free equation of a DOF of a node.
+///
+/// # Errors
+///
+/// [`SolverError::Model`] for a node or DOF that is not there, [`SolverError::Setting`] for one that is prescribed.
+fn free_equation(stage: &Stage<'_>, node: NodeId, dof: Dof) -> Result<usize, SolverError> {
+    let index = stage.model().dof(node, dof)?;
+    let equation = stage.assembler().equation(index);
+    equation.ok_or(SolverError::Setting {
+        what: "node whose displacement is controlled",
+        value: node as f64,
+        allowed: "nodes whose displacement is free in that direction",
+    })
 }
 
 /// Reference forces f (N) of a stage on its free equations.

@@ -18,12 +18,16 @@ impl Mode {
     /// Controls a mode, scaled to a largest displacement of 1; `None` if it does not move, or is not finite.
     pub fn new(mut mode: Vec<f64>) -> Option<Self> {
         let largest = mode.iter().fold(0.0_f64, |a, m| a.max(m.abs()));
-        let square = dot(&mode, &mode);
-        if !(largest > 0.0 && square.is_finite()) {
+        if !(largest > 0.0 && mode.iter().all(|m| m.is_finite())) {
             return None;
         }
+        // Squares of what is very large or very small are no numbers, or none at all.
         for m in &mut mode {
-            *m *= largest / square;
+            *m /= largest;
+        }
+        let square = dot(&mode, &mode);
+        for m in &mut mode {
+            *m /= square;
         }
         Some(Self(Linear {
             gradient: mode,
@@ -58,5 +62,17 @@ mod tests {
         assert!((border.value - 3.0).abs() < 1e-14, "{border:?}");
         assert!(Mode::new(vec![0.0; 3]).is_none());
         assert!(Mode::new(vec![f64::NAN, 1.0]).is_none());
+        assert!(Mode::new(vec![f64::INFINITY, 1.0]).is_none());
+    }
+
+    /// Target: that of a mode of entries near 1.
+    #[test]
+    fn the_size_of_the_mode_does_not_matter() {
+        for size in [1e-200, -1e-200, 1.0, 1e200, -1e200, 1e-310] {
+            let mode = Mode::new(vec![0.0, -size, 0.5 * size]).unwrap();
+            let increment = [0.0, -3.0, 1.5].map(|d| d * size.signum());
+            let border = mode.linearise(&increment, 0.0, &mut [0.0; 3]);
+            assert!((border.value - 3.0).abs() < 1e-12, "{size}: {border:?}");
+        }
     }
 }
