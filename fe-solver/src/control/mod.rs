@@ -134,7 +134,7 @@ impl StepControl {
     ///
     /// # Errors
     ///
-    /// [`SolverError`]; everything accepted before has been recorded.
+    /// [`SolverError`]; everything accepted before has been recorded, and the stage is left at the last accepted state.
     pub fn run(
         &self,
         stage: &mut Stage<'_>,
@@ -143,6 +143,21 @@ impl StepControl {
     ) -> Result<String, SolverError> {
         self.check()?;
         driver.begin();
+        let end = self.march(stage, driver, recorder);
+        if end.is_err() {
+            stage.roll_back();
+            stage.forget_tangent();
+        }
+        end
+    }
+
+    /// The steps of a run; an error leaves the stage where it arose.
+    fn march(
+        &self,
+        stage: &mut Stage<'_>,
+        driver: &mut dyn Driver,
+        recorder: &mut dyn Recorder,
+    ) -> Result<String, SolverError> {
         let mut length = self.initial.min(self.longest);
         let mut progress = 0.0;
         let mut step = 1;
@@ -199,10 +214,7 @@ impl StepControl {
                             length = shorter;
                             continue;
                         }
-                        Err(e) => {
-                            stage.roll_back();
-                            return Err(e);
-                        }
+                        Err(e) => return Err(e),
                     };
                     if driver.balances() && change.creates_energy() {
                         if can_shorten {
@@ -214,7 +226,6 @@ impl StepControl {
                             continue;
                         }
                         if !may_flag {
-                            stage.roll_back();
                             return Err(SolverError::CreatesEnergy {
                                 lambda: stage.lambda(),
                                 step: this,
@@ -257,7 +268,6 @@ impl StepControl {
                     length = shorter;
                 }
                 Ok(attempt) => {
-                    stage.roll_back();
                     return Err(SolverError::NoConvergence {
                         lambda: stage.lambda(),
                         step: this,
@@ -267,10 +277,7 @@ impl StepControl {
                         worst: stage.describe(attempt.residual.worst),
                     });
                 }
-                Err(e) => {
-                    stage.roll_back();
-                    return Err(e);
-                }
+                Err(e) => return Err(e),
             }
         }
     }
