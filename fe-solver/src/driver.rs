@@ -61,6 +61,32 @@ pub struct Attempt {
     pub lag: Option<Lag>,
 }
 
+impl Attempt {
+    /// Refuses one of another model, and a converged one with what is no number.
+    pub(crate) fn check(&self, stage: &Stage<'_>) -> Result<(), SolverError> {
+        let u = &self.displacement;
+        let dofs = stage.displacement().len();
+        SolverError::length("displacement of an attempt", u.len(), dofs)?;
+        if !self.converged {
+            return Ok(());
+        }
+        SolverError::number("load factor of an attempt", self.lambda)?;
+        let Residual {
+            relative, worst, ..
+        } = self.residual;
+        if !relative.is_finite() {
+            let what = format!("relative residual, worst at {}", stage.describe(worst));
+            return SolverError::number(&what, relative);
+        }
+        u.iter().enumerate().try_for_each(|(dof, &u)| {
+            if u.is_finite() {
+                return Ok(());
+            }
+            SolverError::number(&format!("{} (mm)", stage.describe(dof)), u)
+        })
+    }
+}
+
 /// Brings one step to equilibrium, starting from the accepted state of a stage.
 pub trait Driver: Debug + Send {
     /// Name, for output.

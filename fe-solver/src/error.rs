@@ -40,12 +40,22 @@ pub enum SolverError {
         /// Node and DOF.
         at: String,
     },
-    /// No stiffness has been evaluated that could be factorised.
+    /// No stiffness has been evaluated that could be factorised, or no forces that could be weighed.
     #[error(
         "no stiffness has been evaluated yet, or the evaluation failed: ask Stage::residual for an operator, tangent or \
-         secant, first"
+         secant, first; for energies, for forces"
     )]
     NotEvaluated,
+    /// A driver gives no number, or an iteration has left the range of numbers.
+    #[error(
+        "{what} = {value}; allowed: finite numbers; try shorter steps, and check the driver if it is your own"
+    )]
+    NoNumber {
+        /// Quantity, and where.
+        what: String,
+        /// Value.
+        value: f64,
+    },
     /// No step could be completed, not even the shortest.
     #[error(
         "no convergence at load factor {lambda:.6} with the shortest step {step:.3e}: relative residual \
@@ -137,6 +147,15 @@ impl SolverError {
         })
     }
 
+    /// Refuses what is no number.
+    pub(crate) fn number(what: &str, value: f64) -> Result<(), Self> {
+        if value.is_finite() {
+            return Ok(());
+        }
+        let what = what.into();
+        Err(Self::NoNumber { what, value })
+    }
+
     /// Refuses a setting that is no positive number.
     pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), Self> {
         Self::setting((what, value), "(0, inf)", value.is_finite() && value > 0.0)
@@ -162,7 +181,7 @@ impl SolverError {
     pub fn is_recoverable(&self) -> bool {
         match self {
             Self::Model(e) => e.is_recoverable(),
-            Self::Singular { .. } | Self::NotFinite { .. } => true,
+            Self::Singular { .. } | Self::NotFinite { .. } | Self::NoNumber { .. } => true,
             _ => false,
         }
     }

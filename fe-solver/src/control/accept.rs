@@ -42,7 +42,9 @@ impl StepControl {
         } else {
             Some(stage.stability(u, lambda, relaxation)?)
         };
-        Ok((signs, stage.weigh(u, lambda)?))
+        // The factor may be that of the state that was not weighed.
+        let change = stage.weigh(u, lambda);
+        Ok((signs, change.inspect_err(|_| stage.forget_tangent())?))
     }
 
     /// Commits a measured state and records it; keeps it, unless it is recalled and leads where it led.

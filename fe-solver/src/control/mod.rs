@@ -326,7 +326,9 @@ impl StepControl {
             recorder.note(plan.step, &note)?;
             heard.notes.push(note);
         }
-        result
+        let attempt = result?;
+        attempt.check(stage)?;
+        Ok(attempt)
     }
 
     /// Length aimed at after an accepted step.
@@ -351,9 +353,11 @@ impl StepControl {
 /// Whether an attempt that misses the criterion ends in a state of the model, and has not diverged: what breaks off may go
 /// far, but not by more than the size of the model, in which displacements are small.
 fn is_a_state(stage: &Stage<'_>, attempt: &Attempt) -> bool {
-    let ways = attempt.displacement.iter().zip(stage.displacement());
-    let farthest = ways.map(|(to, from)| (to - from).abs()).fold(0.0, f64::max);
-    attempt.residual.relative <= UNBALANCED && farthest <= stage.model().mesh().extent()
+    let mut ways = attempt.displacement.iter().zip(stage.displacement());
+    let extent = stage.model().mesh().extent();
+    attempt.lambda.is_finite()
+        && attempt.residual.relative <= UNBALANCED
+        && ways.all(|(to, from)| (to - from).abs() <= extent)
 }
 
 /// Gives an attempt up for a shorter step.

@@ -20,6 +20,14 @@ pub enum LinearError {
         /// Position in the value array.
         position: usize,
     },
+    /// A value on the right is NaN or infinite.
+    #[error("value {equation} on the right is {value}; allowed: finite numbers")]
+    RightNotFinite {
+        /// Equation.
+        equation: usize,
+        /// Value given.
+        value: f64,
+    },
     /// Values or right-hand side of another pattern.
     #[error("{given} {what} for a pattern of {expected}")]
     Mismatch {

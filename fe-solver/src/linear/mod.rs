@@ -129,8 +129,8 @@ pub trait LinearSolver {
     ///
     /// # Errors
     ///
-    /// [`LinearError::NotFactorized`] before a factorisation, [`LinearError::Mismatch`] for another number of equations, and those
-    /// of [`Self::factorize`] where one was put off.
+    /// [`LinearError::NotFactorized`] before a factorisation, [`LinearError::Mismatch`] for another number of equations,
+    /// [`LinearError::RightNotFinite`], and those of [`Self::factorize`] where one was put off.
     fn solve_in_place(&mut self, rhs: &mut [f64]) -> Result<(), LinearError>;
 
     /// Applies the inverse of the last factor once, in place, unchecked: for iterations whose operator is only near
@@ -138,7 +138,8 @@ pub trait LinearSolver {
     ///
     /// # Errors
     ///
-    /// [`LinearError::NotFactorized`] before a factorisation.
+    /// [`LinearError::NotAnalysed`] before an analysis, [`LinearError::NotFactorized`] before a factorisation,
+    /// [`LinearError::Mismatch`] for another number of equations.
     fn precondition(&mut self, rhs: &mut [f64]) -> Result<(), LinearError>;
 
     /// What has been done.
@@ -326,6 +327,10 @@ impl LinearSolver for DirectSolver {
     }
 
     fn solve_in_place(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
+        if let Some(equation) = rhs.iter().position(|b| !b.is_finite()) {
+            let value = rhs[equation];
+            return Err(LinearError::RightNotFinite { equation, value });
+        }
         if let Some(limit) = self.put_off {
             if self.iterate(rhs, limit)? {
                 return Ok(());

@@ -60,8 +60,9 @@ impl Energies {
     ///
     /// # Errors
     ///
-    /// [`SolverError::Setting`] if the load factor drives displacements.
+    /// [`SolverError::Setting`] if the load factor drives displacements, [`SolverError::Mismatch`] for a `u` of another model.
     pub fn to(stage: &Stage<'_>, u: &[f64], lambda: f64) -> Result<Self, SolverError> {
+        SolverError::length("displacement", u.len(), stage.displacement().len())?;
         let start = stage.restrict(stage.displacement());
         let du = difference(&stage.restrict(u), &start);
         let from = (start.as_slice(), stage.lambda());

@@ -108,6 +108,10 @@ impl Stage<'_> {
     }
 
     /// Reaction (N) of a constrained DOF in the last evaluation.
+    ///
+    /// # Panics
+    ///
+    /// For a DOF that the model does not have.
     pub fn reaction(&self, dof: usize) -> f64 {
         self.assembled.internal[dof] - self.external[dof]
     }
@@ -116,11 +120,17 @@ impl Stage<'_> {
     ///
     /// # Errors
     ///
-    /// [`SolverError::Model`].
+    /// [`SolverError::NotEvaluated`] before an evaluation or after one that failed, [`SolverError::Model`] also for energies
+    /// that are not finite, [`SolverError::NoNumber`] for a load factor that is not.
     pub fn weigh(&mut self, u: &[f64], lambda: f64) -> Result<Change, SolverError> {
+        SolverError::number("load factor", lambda)?;
         let (model, conditions) = (self.model, &self.conditions);
         let (assembler, state) = (&self.assembler, &*self.state);
         let forces = &self.assembled.element_forces;
+        let last = model.elements().len().checked_sub(1);
+        if last.is_some_and(|e| forces.len() < assembler.force_range(e).end) {
+            return Err(SolverError::NotEvaluated);
+        }
         if !self.opened {
             let start = (self.lambda, self.displacement.as_slice());
             self.ledger.rebase(start.1);

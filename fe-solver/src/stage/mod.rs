@@ -264,6 +264,10 @@ impl<'m> Stage<'m> {
     }
 
     /// Free part of a vector of all DOFs.
+    ///
+    /// # Panics
+    ///
+    /// For a vector that is shorter than that.
     pub fn restrict(&self, full: &[f64]) -> Vec<f64> {
         self.assembler
             .free()
@@ -277,7 +281,8 @@ impl<'m> Stage<'m> {
     ///
     /// # Errors
     ///
-    /// [`SolverError::Mismatch`] for a `u` of another model, [`SolverError::Model`].
+    /// [`SolverError::Mismatch`] for a `u` of another model, [`SolverError::NoNumber`] for a load factor that is none,
+    /// [`SolverError::Model`].
     pub fn residual(
         &mut self,
         u: &[f64],
@@ -285,6 +290,7 @@ impl<'m> Stage<'m> {
         ctx: &EvaluationContext,
     ) -> Result<Vec<f64>, SolverError> {
         SolverError::length("displacement", u.len(), self.start.len())?;
+        SolverError::number("load factor", lambda)?;
         let begin = Instant::now();
         self.counters.force_evaluations += 1;
         // An evaluation that fails has been made nowhere.
@@ -443,6 +449,9 @@ impl<'m> Stage<'m> {
 
     /// Name of a DOF for messages.
     pub fn describe(&self, dof: usize) -> String {
+        if dof >= self.model.dofs().len() {
+            return format!("DOF {dof}, which the model does not have");
+        }
         let (node, kind) = self.model.dofs().owner(dof);
         let x = self.model.mesh().nodes()[node];
         format!(

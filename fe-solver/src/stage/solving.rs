@@ -82,7 +82,7 @@ impl Stage<'_> {
     ///
     /// # Errors
     ///
-    /// [`SolverError::Singular`] or [`SolverError::Linear`].
+    /// [`SolverError::Singular`], [`SolverError::NoNumber`] for a force that is none, or [`SolverError::Linear`].
     pub fn solve(&mut self, rhs: &mut [f64]) -> Result<(), SolverError> {
         let put_off = self.linear.is_put_off();
         let (result, time) = self.counted(|linear, _| linear.solve_in_place(rhs));
@@ -128,6 +128,11 @@ impl Stage<'_> {
                 SolverError::NotFinite {
                     at: self.describe(dof as usize),
                 }
+            }
+            LinearError::RightNotFinite { equation, value } => {
+                let dof = self.assembler.free()[equation] as usize;
+                let what = format!("force (N) on {}", self.describe(dof));
+                SolverError::NoNumber { what, value }
             }
             other => SolverError::Linear(other),
         }
