@@ -101,17 +101,11 @@ impl PullOut {
     pub fn debonding(&self, length: f64, debonded: f64) -> (f64, f64) {
         let [l1, l2] = self.lambda;
         let left = length - debonded;
-        let (mut low, mut high) = (0.0, left.min(self.debonding_zone()));
-        for _ in 0..200 {
-            let middle = 0.5 * (low + high);
-            let (sin, cos) = (l2 * middle).sin_cos();
-            if l2 / l1 * (l1 * (left - middle)).tanh() * sin < cos {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        let (force, _) = self.softening(left, low);
+        let softened = farthest(left.min(self.debonding_zone()), |a| {
+            let (sin, cos) = (l2 * a).sin_cos();
+            l2 / l1 * (l1 * (left - a)).tanh() * sin < cos
+        });
+        let (force, _) = self.softening(left, softened);
         (
             force,
             self.bond.final_slip() + force / self.membrane * debonded,
@@ -129,19 +123,13 @@ impl PullOut {
     /// Softened length (mm), force per width (N/mm) and displacement of the loaded end (mm) at the peak.
     pub fn peak(&self, length: f64) -> (f64, f64, f64) {
         let [l1, l2] = self.lambda;
-        let (mut low, mut high) = (0.0, length.min(self.debonding_zone()));
-        for _ in 0..200 {
-            let middle = 0.5 * (low + high);
+        let softened = farthest(length.min(self.debonding_zone()), |a| {
             // Times cos(lambda_2 a) > 0, which keeps it finite.
-            let (sin, cos) = (l2 * middle).sin_cos();
-            if (l1 * (length - middle)).tanh() * cos > l2 / l1 * sin {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        let (force, displacement) = self.softening(length, low);
-        (low, force, displacement)
+            let (sin, cos) = (l2 * a).sin_cos();
+            (l1 * (length - a)).tanh() * cos > l2 / l1 * sin
+        });
+        let (force, displacement) = self.softening(length, softened);
+        (softened, force, displacement)
     }
 
     /// Effective length (mm): the bond length whose strength is `share`, in (0, 1), of [`Self::ultimate`]; 0.97 in Yuan et
@@ -156,4 +144,18 @@ impl PullOut {
         let t = l2 * (l2 * a).tan();
         a + ((l1 + t) / (l1 - t)).ln() / (2.0 * l1)
     }
+}
+
+/// The place up to which a condition holds that holds at zero and fails from some place before `end` on, by bisection.
+fn farthest(end: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    let (mut low, mut high) = (0.0, end);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if holds(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
 }

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 pub(crate) const MERGE: f64 = 1e-6;
 
 /// Farther from the origin (mm) than this, places cannot be told apart by integers.
-pub(crate) const FARTHEST: f64 = 9e12;
+const FARTHEST: f64 = 9e12;
 
 /// Numbers by place.
 #[derive(Debug)]

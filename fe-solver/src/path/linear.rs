@@ -2,6 +2,8 @@
 
 use super::Border;
 use crate::anderson::dot;
+use crate::error::SolverError;
+use crate::stage::Stage;
 
 /// g = c . du + d dlambda - length.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -15,6 +17,19 @@ pub(super) struct Linear {
 }
 
 impl Linear {
+    /// Begins a step of a `length` with the gradient at hand, that of `what`, unless it is one of another stage.
+    pub(super) fn begin(
+        &mut self,
+        what: &'static str,
+        stage: &Stage<'_>,
+        length: f64,
+    ) -> Result<(), SolverError> {
+        let equations = stage.assembler().free().len();
+        SolverError::length(what, self.gradient.len(), equations)?;
+        self.length = length;
+        Ok(())
+    }
+
     /// c . du + d dlambda.
     pub(super) fn advance(&self, du: &[f64], dlambda: f64) -> f64 {
         dot(&self.gradient, du) + self.slope * dlambda

@@ -38,10 +38,7 @@ impl Mode {
 
 impl PathConstraint for Mode {
     fn begin(&mut self, stage: &Stage<'_>, length: f64) -> Result<(), SolverError> {
-        let equations = stage.assembler().free().len();
-        SolverError::length("mode", self.0.gradient.len(), equations)?;
-        self.0.length = length;
-        Ok(())
+        self.0.begin("mode", stage, length)
     }
 
     fn linearise(&self, du: &[f64], dlambda: f64, gradient: &mut [f64]) -> Border {

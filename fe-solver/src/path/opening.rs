@@ -39,10 +39,7 @@ impl Opening {
 
 impl PathConstraint for Opening {
     fn begin(&mut self, stage: &Stage<'_>, length: f64) -> Result<(), SolverError> {
-        let equations = stage.assembler().free().len();
-        SolverError::length("opening", self.0.gradient.len(), equations)?;
-        self.0.length = length;
-        Ok(())
+        self.0.begin("opening", stage, length)
     }
 
     fn linearise(&self, du: &[f64], dlambda: f64, gradient: &mut [f64]) -> Border {
