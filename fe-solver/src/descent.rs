@@ -31,6 +31,8 @@ use crate::stage::{Residual, Stage};
 pub struct DescentSettings {
     /// Iterations after which it is given up.
     pub max_iterations: usize,
+    /// Iterations in which the residual has to halve, else it is given up.
+    pub patience: usize,
     /// Iterations with one factor.
     pub rebuild_after: usize,
     /// Largest overshoot: -r' . du over r . du.
@@ -44,7 +46,8 @@ pub struct DescentSettings {
 impl Default for DescentSettings {
     fn default() -> Self {
         Self {
-            max_iterations: 1000,
+            max_iterations: 4000,
+            patience: 1000,
             rebuild_after: 10,
             overshoot: 0.3,
             least_factor: 0.05,
@@ -61,6 +64,7 @@ impl DescentSettings {
         let (over, least, most) = (self.overshoot, self.least_factor, self.largest_factor);
         let setting = SolverError::setting;
         SolverError::positive("iterations of the descent", self.max_iterations as f64)?;
+        SolverError::positive("patience of the descent", self.patience as f64)?;
         let fits = over.is_finite() && over >= 0.0;
         setting(("overshoot of the descent", over), "[0, inf)", fits)?;
         let fits = least > 0.0 && least <= 1.0;

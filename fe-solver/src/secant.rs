@@ -96,9 +96,10 @@ struct Snap {
     collapsed: bool,
 }
 
-/// Share of the accepted load after whose loss a structure has collapsed: the fall has a quarter of the iterations to come
-/// to rest.
+/// Share of the accepted load after whose loss a structure has collapsed.
 const COLLAPSE: f64 = 0.9;
+/// Iterations from then on in which it has to come to rest: there may be no equilibrium left.
+const TO_REST: usize = 250;
 /// Relative residual below which a snap counts as small, and a descent gives over to the accelerated iteration.
 const NEAR: f64 = 1e-2;
 /// Iterations of a descent from one look at that to the next.
@@ -250,7 +251,7 @@ impl SecantAnderson {
         log: &mut IterationLog<'_>,
     ) -> Result<Snap, SolverError> {
         let settings = self.settings.descent;
-        let limit = if last_resort {
+        let mut limit = if last_resort {
             settings.max_iterations
         } else {
             settings.max_iterations.min(self.settings.small_snap)
@@ -263,13 +264,21 @@ impl SecantAnderson {
         }
         let mut spent = 0;
         let mut near = NEAR;
+        let mut halved = (0.0_f64, 0);
         loop {
             let residual = descent.run(stage, criterion, LEG, log)?;
             let iterations = spent + descent.iterations;
             let loss = Self::loss(stage);
             let collapsed = loss >= COLLAPSE;
-            let limit = if collapsed { limit / 4 } else { limit };
-            let over = iterations >= limit || !residual.relative.is_finite();
+            if collapsed {
+                limit = limit.min(iterations + TO_REST);
+            }
+            if residual.relative < 0.5 * halved.0 {
+                halved = (residual.relative, iterations);
+            }
+            halved.0 = halved.0.max(residual.relative);
+            let stalled = iterations >= halved.1 + settings.patience;
+            let over = stalled || iterations >= limit || !residual.relative.is_finite();
             // A snap that loses load is to be placed by shorter steps first: no use to follow it down.
             let lost = !last_resort && loss >= DROP_FALL;
             if residual.relative <= criterion || over || lost {

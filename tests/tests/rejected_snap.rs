@@ -149,6 +149,10 @@ fn descents_that_cannot_be_are_refused() {
             max_iterations: 0,
             ..good
         },
+        DescentSettings {
+            patience: 0,
+            ..good
+        },
     ] {
         let (model, conditions) = pulled();
         let mut state = StateStore::new(model.elements());
