@@ -8,7 +8,7 @@ use clap::{Parser, Subcommand};
 use miette::{MietteHandlerOpts, Report, miette};
 
 use crate::exit::Exit;
-use crate::input::{InputError, load, load_all};
+use crate::input::{InputError, each, load, load_all};
 use crate::options::RunOptions;
 use crate::{list, output, point, results, run};
 
@@ -33,7 +33,7 @@ enum Command {
     },
     /// Check specimen files; nothing is run
     Check {
-        /// Specimen files, or beams of the program
+        /// Specimen files, beams of the program, or `all` of these
         #[arg(required = true, value_name = "FILE")]
         files: Vec<String>,
     },
@@ -100,9 +100,10 @@ fn list_beams(json: bool) -> Result<Exit, Shown> {
 }
 
 fn check(files: &[String]) -> Result<Exit, Shown> {
-    let mut bad = 0;
+    let (mut count, mut bad) = (0, 0);
     let mut gravest = Exit::Done;
-    for file in files {
+    for file in each(files) {
+        count += 1;
         let checked = load(file).map_err(show_all).and_then(|specimen| {
             run::buildable(&specimen).map_err(|error| show(error.exit(), error))?;
             Ok(specimen)
@@ -117,7 +118,7 @@ fn check(files: &[String]) -> Result<Exit, Shown> {
             }
         }
     }
-    tell(format_args!("{} checked, {bad} bad", files.len()));
+    tell(format_args!("{count} checked, {bad} bad"));
     Ok(gravest)
 }
 

@@ -93,12 +93,7 @@ pub fn load_all(names: &[String]) -> Result<Vec<Specimen>, Vec<InputError>> {
     let mut specimens: Vec<Specimen> = Vec::new();
     let mut given: Vec<&str> = Vec::new();
     let mut errors = Vec::new();
-    let all = BUILTIN.iter().map(|(name, _)| *name);
-    let names = names.iter().flat_map(|name| match name.as_str() {
-        "all" => all.clone().collect(),
-        other => vec![other],
-    });
-    for name in names {
+    for name in each(names) {
         let new = match load(name) {
             Ok(new) => new,
             Err(more) => {
@@ -122,6 +117,15 @@ pub fn load_all(names: &[String]) -> Result<Vec<Specimen>, Vec<InputError>> {
     } else {
         Err(errors)
     }
+}
+
+/// What is named, with the beams of the program for `all`.
+pub fn each(names: &[String]) -> impl Iterator<Item = &str> {
+    let all = BUILTIN.iter().map(|(name, _)| *name);
+    names.iter().flat_map(move |name| match name.as_str() {
+        "all" => all.clone().collect(),
+        other => vec![other],
+    })
 }
 
 /// The specimen of that name, or of that file.

@@ -748,14 +748,12 @@ fn the_beams_of_the_program_are_listed_and_pass_their_checks() {
         .filter_map(|line| line.split_whitespace().next())
         .collect();
     assert_eq!(beams.len(), 21, "{table}");
-    let checked = rc_beams(&[&["check"], &beams[..]].concat(), folder.path());
-    assert_eq!(checked.status.code(), Some(0), "{}", message(&checked));
-    assert_eq!(
-        String::from_utf8_lossy(&checked.stdout)
-            .matches(": ok, beam ")
-            .count(),
-        21
-    );
+    for named in [&beams[..], &["all"]] {
+        let checked = rc_beams(&[&["check"], named].concat(), folder.path());
+        assert_eq!(checked.status.code(), Some(0), "{}", message(&checked));
+        let said = String::from_utf8_lossy(&checked.stdout).into_owned();
+        assert_eq!(said.matches(": ok, beam ").count(), 21, "{said}");
+    }
     let example = rc_beams(&["check", STAGED], folder.path());
     assert_eq!(example.status.code(), Some(0), "{}", message(&example));
     let json = rc_beams(&["list", "--json"], folder.path());

@@ -53,7 +53,7 @@ fn unsymmetry(pattern: &Sparsity, tangent: &MatrixValues) -> f64 {
 /// What the steps of a driver were like.
 #[derive(Debug, Clone, Copy)]
 struct Found {
-    /// Least order of convergence of the last three residuals of the steps that took four iterations or more.
+    /// Least order of convergence at the end of the steps that took four iterations or more.
     order: f64,
     /// Largest [`unsymmetry`] of the tangent at the end of a step.
     unsymmetry: f64,
@@ -99,15 +99,12 @@ fn find(driver: &mut dyn Driver, step: f64) -> Result<Found, Failure> {
     if let Some(error) = failed {
         return Err(error.into());
     }
+    // The last residual may be rounding, then it is the one before that tells.
     let order = |r: &Vec<f64>| {
-        let n = r.len();
-        let [a, b, c] = [r[n - 3], r[n - 2], r[n - 1]].map(f64::ln);
-        (c - b) / (b - a)
+        let order = |r: &[f64]| (r[2] / r[1]).ln() / (r[1] / r[0]).ln();
+        let last = r[r.len() - 4..].windows(3);
+        last.map(order).fold(f64::NEG_INFINITY, f64::max)
     };
-    // Below, rounding.
-    for residuals in &mut steps {
-        residuals.retain(|r| *r > 1e-12);
-    }
     let long = steps.iter().filter(|r| r.len() >= 4);
     Ok(Found {
         order: long.map(order).fold(f64::INFINITY, f64::min),
