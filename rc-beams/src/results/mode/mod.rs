@@ -10,7 +10,7 @@
 //!   between the spans. Vertical cracks in a shear span count only if bars yield: along elastic bars they
 //!   open as the lower part of an inclined crack;
 //! - *yield*: a longitudinal bar reaches its yield stress by the peak. It brings no load down by itself: where the
-//!   diagonal share is at least 0.6 it does not count;
+//!   diagonal share is at least 0.6 it does not count. Plain concrete, which has no bars, bends as if they had yielded;
 //! - *softened web*: share of the middle half of the height, in one shear span, whose concrete is past its
 //!   compressive strength at the peak;
 //! - *growth of crushing*: sum of volume times increase of crushing over the drop, as a share of the volume.
@@ -58,7 +58,7 @@ pub enum FailureMode {
     DiagonalTension,
     /// The web of a shear span crushes.
     WebCrushing,
-    /// Longitudinal bars yield.
+    /// Longitudinal bars yield, or there are none.
     Flexure,
     /// Concrete crushes outside the web, bars elastic.
     ConcreteCrushing,
@@ -155,7 +155,7 @@ impl Measures {
         let spans = layout.shear_spans.len();
         let bars = peak.bars.iter();
         let bar = bars.max_by(|a, b| a.utilisation.total_cmp(&b.utilisation));
-        let yielded = bar.is_some_and(|bar| bar.utilisation >= 1.0);
+        let yielded = bar.is_none_or(|bar| bar.utilisation >= 1.0);
         let mut diagonal = vec![0.0; spans];
         let mut vertical = 0.0;
         let mut web = vec![[0.0; 2]; spans];

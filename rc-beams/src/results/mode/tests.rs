@@ -89,6 +89,19 @@ fn a_load_that_does_not_fall_is_flexure_if_bars_yield_along_a_plateau_and_else_n
 }
 
 #[test]
+fn a_vertical_crack_through_plain_concrete_is_flexure() {
+    let [before, mut end] = [peak(), peak()].map(|state| Snapshot {
+        bars: vec![],
+        ..state
+    });
+    open(&mut end, 15, 0.0);
+    assert_eq!(mode(&before, &end), FailureMode::Flexure);
+    open(&mut end, 24, 45.0);
+    open(&mut end, 25, 45.0);
+    assert_eq!(mode(&before, &end), FailureMode::DiagonalTension);
+}
+
+#[test]
 fn diagonal_cracks_that_open_in_a_shear_span_are_diagonal_tension() {
     let (before, mut end) = (peak(), peak());
     open(&mut end, 24, 45.0);
