@@ -108,7 +108,7 @@ fn a_run_killed_again_and_again_ends_as_one_in_one_go() {
 #[test]
 fn a_run_killed_after_unstable_steps_goes_on() {
     let mut unstable = SMALL;
-    unstable[4] = "3";
+    unstable[2] = "47x3x1";
     let (whole, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let output = command(whole.path(), &unstable).output().unwrap();
     assert!(output.status.success());

@@ -15,6 +15,8 @@ pub(super) struct Done {
     pub(super) verdict: Continue,
     pub(super) taken: f64,
     pub(super) converged: bool,
+    /// Whether a snap was passed.
+    pub(super) held: bool,
     /// None where the path is a motion, whose steps need none.
     pub(super) iterations: Option<usize>,
 }
@@ -110,6 +112,7 @@ impl StepControl {
             verdict: recorder.step(&view)?,
             taken,
             converged: attempt.converged,
+            held: attempt.held,
             iterations: attempt.means.is_none().then_some(attempt.iterations),
         })
     }

@@ -57,7 +57,7 @@ pub struct StepControl {
     pub desired: usize,
     /// Largest growth from one step to the next.
     pub growth: f64,
-    /// Smallest, at most 1, where no step has to be shorter than one that succeeded.
+    /// Smallest, at most 1, where no step has to be shorter than one that succeeded; after a snap, 1 in any case.
     pub shrinkage: f64,
     /// Share of a step that failed at which it is tried again.
     pub cut: f64,
@@ -338,7 +338,9 @@ impl StepControl {
         };
         let wanted = self.desired as f64 / iterations.max(1) as f64;
         let growth = if done.converged { self.growth } else { 1.0 };
-        let factor = wanted.sqrt().clamp(self.shrinkage.min(growth), growth);
+        // A snap takes its iterations however short the step that meets it.
+        let shrinkage = if done.held { 1.0 } else { self.shrinkage };
+        let factor = wanted.sqrt().clamp(shrinkage.min(growth), growth);
         let next = done.taken * factor;
         // A step that another limit made short says nothing about the next one.
         let next = if factor > 1.0 {
