@@ -34,14 +34,18 @@ pub struct SpanDrop {
 }
 
 impl SpanDrop {
+    /// Whether a sheet on the side is bonded to it by an interface, or carries tension at the peak.
+    pub fn is_covered(&self) -> bool {
+        self.debonded.is_some() || self.force_kn[0] > 0.0
+    }
+
     /// Loss of force relative to that at the peak, negative where it grows; 0 where the sheets are idle at the peak.
     pub fn loss(&self) -> f64 {
-        let [peak, end] = self.force_kn;
-        if peak > 0.0 { (peak - end) / peak } else { 0.0 }
+        loss(self.force_kn)
     }
 }
 
-/// The zone that is debonded most at the end of the drop.
+/// A zone, at the end of the drop.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ZoneDrop {
     /// Name.
@@ -50,6 +54,19 @@ pub struct ZoneDrop {
     pub debonded: f64,
     /// Largest slip so far (mm).
     pub slip_max_mm: f64,
+    /// Largest fibre stress at the peak and at the end (MPa).
+    pub fibre_mpa: [f64; 2],
+}
+
+impl ZoneDrop {
+    /// Loss of fibre stress relative to that at the peak, negative where it grows; 0 where the zone is idle at the peak.
+    pub fn loss(&self) -> f64 {
+        loss(self.fibre_mpa)
+    }
+}
+
+fn loss([peak, end]: [f64; 2]) -> f64 {
+    if peak > 0.0 { (peak - end) / peak } else { 0.0 }
 }
 
 /// What the sheets lose from the peak to 0.8 of it.
@@ -67,6 +84,8 @@ pub struct SheetDrop {
     pub utilisation: f64,
     /// The zone that is debonded most at the end.
     pub zone: Option<ZoneDrop>,
+    /// The same of the zones that leave the side bare.
+    pub flat: Option<ZoneDrop>,
 }
 
 impl SheetDrop {
@@ -90,14 +109,24 @@ impl SheetDrop {
             debonded: before.debonded.zip(after.debonded).map(<[f64; 2]>::from),
             stirrups: sheets.stirrups_in_spans.get(i).copied().unwrap_or(0),
         });
-        let zones = sheets.zones.iter().zip(&last.zones);
-        let zones = zones.filter_map(|(zone, reading)| {
-            Some(ZoneDrop {
+        let zones = sheets.zones.iter().zip(peak.zones.iter().zip(&last.zones));
+        let debonded = zones.filter_map(|(zone, (before, after))| {
+            let drop = ZoneDrop {
                 name: zone.name.clone(),
-                debonded: reading.debonded?,
-                slip_max_mm: reading.slip_max_mm,
-            })
+                debonded: after.debonded.filter(|share| *share > 0.0)?,
+                slip_max_mm: after.slip_max_mm,
+                fibre_mpa: [before.fibre_mpa, after.fibre_mpa],
+            };
+            Some((zone, drop))
         });
+        let most = |flat: bool| {
+            let found = debonded
+                .clone()
+                .filter(|(zone, _)| !flat || zone.leaves_the_side_bare());
+            found
+                .map(|(_, drop)| drop)
+                .max_by(|a, b| a.debonded.total_cmp(&b.debonded))
+        };
         Some(Self {
             spans: spans.collect(),
             complete: end.is_some(),
@@ -107,9 +136,8 @@ impl SheetDrop {
                 .iter()
                 .map(|r| r.utilisation)
                 .fold(0.0, f64::max),
-            zone: zones
-                .filter(|z| z.debonded > 0.0)
-                .max_by(|a, b| a.debonded.total_cmp(&b.debonded)),
+            zone: most(false),
+            flat: most(true),
         })
     }
 }

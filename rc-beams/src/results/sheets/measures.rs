@@ -28,6 +28,8 @@ pub struct ZoneReading {
     pub debonded: Option<f64>,
     /// Largest slip so far (mm).
     pub slip_max_mm: f64,
+    /// Largest fibre stress (MPa); 0 where all are in compression.
+    pub fibre_mpa: f64,
 }
 
 /// The measures of one accepted step, a row of `sheets.csv`.
@@ -86,6 +88,9 @@ impl SheetRow {
         let mut zones = vec![ZoneReading::default(); sheets.zones.len()];
         let mut columns: BTreeMap<(usize, usize, i64), Column> = BTreeMap::new();
         for point in &state.sheet {
+            if let Some(zone) = zones.get_mut(point.zone) {
+                zone.fibre_mpa = zone.fibre_mpa.max(point.fibre_stress_mpa);
+            }
             let x = point.position[0];
             let Some(span) = layout.span_at(x) else {
                 continue;

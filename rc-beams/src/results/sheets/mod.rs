@@ -105,17 +105,24 @@ pub struct SheetState {
     pub interface: Vec<InterfacePoint>,
 }
 
-/// A strip, or a sheet over a stretch of the beam, on the side face.
+/// A strip, or a sheet over a stretch of the beam.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Zone {
     /// Name, as in "strip 9".
     pub name: String,
     /// Left and right end (mm).
     pub x_mm: [f64; 2],
-    /// Lower and upper end on the side (mm).
+    /// Lower and upper end on the side (mm); equal where it leaves the side bare.
     pub y_mm: [f64; 2],
     /// Height covered between them (mm), less where bands lie one above the other.
     pub covered_mm: f64,
+}
+
+impl Zone {
+    /// Whether it lies on the soffit or the top alone.
+    pub fn leaves_the_side_bare(&self) -> bool {
+        self.covered_mm <= 0.0
+    }
 }
 
 /// What does not change during a run.

@@ -10,7 +10,7 @@ use crate::results::table::{Table, number};
 /// `sheets.csv` of one run, on disk up to the last accepted step.
 ///
 /// Columns: `step`, `deflection_mm`, `load_kn`, `utilisation`; per shear span `SPAN_stress_mpa`,
-/// `SPAN_force_kn`, `SPAN_debonded`; per zone `ZONE_debonded`, `ZONE_slip_max_mm`. Names are in small letters
+/// `SPAN_force_kn`, `SPAN_debonded`; per zone `ZONE_debonded`, `ZONE_slip_max_mm`, `ZONE_fibre_mpa`. Names are in small letters
 /// with `_` for what is no letter or digit. A share without bonded area leaves its cell empty.
 #[derive(Debug)]
 pub struct SheetTable {
@@ -37,7 +37,7 @@ impl SheetTable {
         }
         for zone in &sheets.zones {
             let name = slug(&zone.name);
-            columns.extend(["debonded", "slip_max_mm"].map(|m| format!("{name}_{m}")));
+            columns.extend(["debonded", "slip_max_mm", "fibre_mpa"].map(|m| format!("{name}_{m}")));
         }
         let columns = columns.iter().map(String::as_str);
         Ok(Self {
@@ -71,7 +71,11 @@ impl SheetTable {
             cells.extend([number(s.stress_mpa), number(s.force_kn), share(s.debonded)]);
         }
         for z in &row.zones {
-            cells.extend([share(z.debonded), number(z.slip_max_mm)]);
+            cells.extend([
+                share(z.debonded),
+                number(z.slip_max_mm),
+                number(z.fibre_mpa),
+            ]);
         }
         self.table.row(cells)?;
         self.table.flush()

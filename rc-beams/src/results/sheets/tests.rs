@@ -133,8 +133,8 @@ fn the_table_is_on_disk_after_every_step() {
     let expected = "step,deflection_mm,load_kn,utilisation,shear_span_from_0_to_1000_mm_stress_mpa,\
                     shear_span_from_0_to_1000_mm_force_kn,shear_span_from_0_to_1000_mm_debonded,\
                     test_span_stress_mpa,test_span_force_kn,test_span_debonded,strip_1_debonded,\
-                    strip_1_slip_max_mm,strip_2_debonded,strip_2_slip_max_mm\n\
-                    7,1.5,80.25,0.1,0,0,,350,28,0.5,0,0,1,0.2\n";
+                    strip_1_slip_max_mm,strip_1_fibre_mpa,strip_2_debonded,strip_2_slip_max_mm,strip_2_fibre_mpa\n\
+                    7,1.5,80.25,0.1,0,0,,350,28,0.5,0,0,350,1,0.2,350\n";
     assert_eq!(text, expected);
 }
 
@@ -194,6 +194,12 @@ fn the_drop_compares_the_peak_with_its_end_not_with_the_last_step() {
         (zone.name.as_str(), zone.debonded, zone.slip_max_mm),
         ("strip 2", 1.0, 0.3)
     );
+    assert!(drop.flat.is_none() && zone.fibre_mpa == [350.0, 175.0]);
+    // The same strip as one that leaves the side bare.
+    let mut flat = sheets();
+    flat.zones[1].covered_mm = 0.0;
+    let found = SheetDrop::of(&flat, &rows, &path, &capacity).unwrap().flat;
+    assert_eq!(found, Some(zone));
     assert!(SheetDrop::of(&sheets(), &rows[..1], &path, &capacity).is_none());
 }
 

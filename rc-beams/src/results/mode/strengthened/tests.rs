@@ -27,7 +27,9 @@ fn drop(loss: f64, debonded: f64) -> SheetDrop {
             name: "strip 9".to_owned(),
             debonded: 0.62,
             slip_max_mm: 0.171,
+            fibre_mpa: [900.0, 450.0],
         }),
+        flat: None,
     }
 }
 
@@ -88,6 +90,36 @@ fn a_sheet_that_ruptures_by_the_peak_is_rupture_whatever_follows() {
     assert_eq!(judge(&states(), &ruptured, None), FailureMode::SheetRupture);
     ruptured.utilisation = 0.999;
     assert_eq!(judge(&states(), &ruptured, None), FailureMode::Debonding);
+    // With perfect bond, in a span without sheets, and where the load of the model does not fall.
+    ruptured.utilisation = 1.0;
+    ruptured.spans[1].debonded = None;
+    assert_eq!(judge(&states(), &ruptured, None), FailureMode::SheetRupture);
+    ruptured.spans[1] = SpanDrop::default();
+    assert_eq!(judge(&states(), &ruptured, None), FailureMode::SheetRupture);
+    let (before, after) = states();
+    let states = (&before, &after);
+    let rising = Diagnosis::strengthened(&layout(), states, &falls(0.0), &ruptured, None);
+    assert_eq!(rising.mode, FailureMode::SheetRupture);
+    assert!(
+        rising.mode_evidence.contains("sheets used to 100 %"),
+        "{rising:?}"
+    );
+}
+
+#[test]
+fn behind_perfect_bond_the_concrete_fails_whatever_the_sheets_lose() {
+    let mut perfect = drop(0.6, 0.0);
+    perfect.spans[1].debonded = None;
+    assert_eq!(
+        judge(&states(), &perfect, None),
+        FailureMode::ConcreteSplitting
+    );
+    let (before, after) = states();
+    let states = (&before, &after);
+    let said = Diagnosis::strengthened(&layout(), states, &falls(0.2), &perfect, None);
+    let text = said.mode_evidence;
+    assert!(text.contains("(-60 %); perfect bond; strip 9"), "{text}");
+    assert!(!text.contains("would carry"), "{text}");
 }
 
 #[test]
@@ -193,7 +225,7 @@ fn bars_that_yield_along_a_plateau_are_flexure() {
 #[test]
 fn a_span_without_sheets_fails_like_a_bare_beam() {
     let mut bare = drop(0.6, 0.6);
-    bare.spans[1].debonded = None;
+    bare.spans[1] = SpanDrop::default();
     assert_eq!(judge(&states(), &bare, None), FailureMode::DiagonalTension);
     // The span whose cracks grow decides, not the one that debonds.
     let mut left = (peak(), peak());
