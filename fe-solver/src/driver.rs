@@ -51,7 +51,7 @@ pub struct Attempt {
     pub converged: bool,
     /// Residual of the law; where histories lag behind, of the law without viscosity.
     pub residual: Residual,
-    /// Iterations spent.
+    /// Iterations spent, what was taken back on the way included: what the step control goes by.
     pub iterations: usize,
     /// Whether the step passed a snap at a held load factor.
     pub held: bool,

@@ -38,7 +38,8 @@ pub struct StepView<'a> {
     pub increment: f64,
     /// Attempts it took.
     pub attempts: usize,
-    /// Iterations of the successful attempt.
+    /// Iterations of the successful attempt, as [`Recorder::iteration`] was told of them: that of the predictor included, none
+    /// where the path is a motion.
     pub iterations: usize,
     /// Relative residual of the accepted state with the true, inviscid law.
     pub residual: f64,

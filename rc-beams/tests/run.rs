@@ -146,6 +146,40 @@ fn a_beam_is_carried_past_its_diagonal_failure() {
     );
 }
 
+/// Cells of a table, per row, by the names of the columns.
+fn columns<const N: usize>(folder: &Path, file: &str, names: [&str; N]) -> Vec<[usize; N]> {
+    let text = fs::read_to_string(folder.join("A-SO3-1").join(file)).unwrap();
+    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let header = lines.next().unwrap();
+    let places = names.map(|name| header.iter().position(|c| *c == name).unwrap());
+    lines
+        .map(|cells| places.map(|i| cells[i].parse().unwrap()))
+        .collect()
+}
+
+/// Target: the iterations of a step are the rows of its last attempt in `newton.csv`, over snaps too; all rows, with those of
+/// rejected attempts and of the self weight, are those of the summary.
+#[test]
+fn all_tables_count_the_same_iterations() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = ["A-SO3-1", "--mesh", "32x2x1", "--fields", "none"];
+    assert_eq!(run(folder.path(), &arguments).status.code(), Some(0));
+    let told = columns(folder.path(), "newton.csv", ["step", "attempt"]);
+    let steps = columns(
+        folder.path(),
+        "history.csv",
+        ["step", "attempts", "iterations", "held"],
+    );
+    assert!(steps.iter().any(|[_, _, _, held]| *held > 0));
+    for [step, attempts, iterations, _] in &steps[1..] {
+        let rows = told.iter().filter(|row| *row == &[*step, *attempts]);
+        assert_eq!(rows.count(), *iterations, "step {step}");
+    }
+    let of_self_weight = steps[0][2] as u64;
+    let all = summary(folder.path())["newton_iterations"].as_u64();
+    assert_eq!(all, Some(told.len() as u64 + of_self_weight));
+}
+
 /// Same input, same output: the history of a cracking beam is the same to the last bit for one thread
 /// and two.
 #[test]

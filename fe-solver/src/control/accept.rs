@@ -86,8 +86,10 @@ impl StepControl {
             taken,
             attempts,
             attempt,
+            iterations: heard,
             ..
         } = entry;
+        let of_this_attempt = heard.iter().filter(|record| record.attempt == attempts);
         let increment = lambda - stage.lambda();
         let work_conjugate_load = stage.work_conjugate_load(&attempt.displacement, lambda);
         stage.commit(attempt.displacement, lambda, attempt.held, signs)?;
@@ -96,7 +98,7 @@ impl StepControl {
             lambda,
             increment,
             attempts,
-            iterations: attempt.iterations,
+            iterations: of_this_attempt.count(),
             residual: attempt.residual.relative,
             held: attempt.held,
             load,

@@ -26,7 +26,7 @@ pub use measures::{LEAST_FORCE, LEAST_SCALE, Residual};
 pub struct Counters {
     /// Accepted steps.
     pub steps: usize,
-    /// Iterations, failed attempts included.
+    /// Iterations that recorders were told of, predictors and failed attempts included.
     pub iterations: usize,
     /// Attempts given up and repeated with a shorter step.
     pub cutbacks: usize,
