@@ -88,6 +88,8 @@ const BARE: [usize; 2] = [60, 4];
 /// Elements over the height of a strengthened beam: the load a bond transfers is too high where elements along
 /// the fibre are long.
 const STRENGTHENED: usize = 6;
+/// Height of the tallest of them, where edges of sheets make others low, in heights of equal ones.
+const TALLEST: f64 = 1.25;
 
 /// Mesh of a specimen that none is asked for: 60 x 4, with sheets 6 over the height and as many along the beam as their
 /// edges need; uniform across the width, unless sheets cover a part of it or another preset than the physical one asks
@@ -102,7 +104,12 @@ pub fn default_mesh(specimen: &Specimen, preset: Preset) -> MeshSize {
     let patches = patches(specimen);
     let edges = sheet_edges(specimen);
     let along = |n| axis_lines(specimen.beam.length_mm.get(), &patches, &edges[0], n).is_some();
-    let up = |n| axis_lines(specimen.beam.height_mm.get(), &[], &edges[1], n).is_some();
+    let height = specimen.beam.height_mm.get();
+    let tallest = TALLEST * height / STRENGTHENED as f64;
+    let up = |n| {
+        let rows = axis_lines(height, &[], &edges[1], n);
+        rows.is_some_and(|ys| ys.windows(2).all(|row| row[1] - row[0] <= tallest))
+    };
     let wide = |n| axis_lines(specimen.half_width_mm(), &[], &edges[2], n).is_some();
     MeshSize {
         nx: least(nx, along).unwrap_or(nx),
@@ -141,15 +148,10 @@ fn has_stirrups(specimen: &Specimen, x: f64) -> bool {
 
 /// Plates and stubs along the axis, from left to right.
 fn patches(specimen: &Specimen) -> Vec<Patch> {
-    let supports = specimen.supports.iter().map(|s| Patch {
-        centre: s.x_mm.get(),
-        length: s.plate.length_mm.get(),
-    });
-    let loads = specimen.loads.iter().map(|l| Patch {
-        centre: l.x_mm.get(),
-        length: l.plate.length_mm.get(),
-    });
-    let mut patches: Vec<Patch> = supports.chain(loads).collect();
+    let plates = specimen.plates();
+    let mut patches: Vec<Patch> = plates
+        .map(|(centre, length)| Patch { centre, length })
+        .collect();
     patches.sort_by(|a, b| a.centre.total_cmp(&b.centre));
     patches
 }

@@ -281,6 +281,13 @@ impl Specimen {
         bars.flat_map(move |bar| places.clone().into_iter().map(move |x| (bar, x)))
     }
 
+    /// Plates at supports and loads: centre and length along the beam (mm).
+    pub(crate) fn plates(&self) -> impl Iterator<Item = (f64, f64)> {
+        let supports = self.supports.iter().map(|s| (s.x_mm, &s.plate));
+        let all = supports.chain(self.loads.iter().map(|l| (l.x_mm, &l.plate)));
+        all.map(|(x, plate)| (x.get(), plate.length_mm.get()))
+    }
+
     /// Half of the width, the extent of the model in z (mm).
     pub fn half_width_mm(&self) -> f64 {
         0.5 * self.beam.width_mm.get()

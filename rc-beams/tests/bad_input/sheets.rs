@@ -25,7 +25,7 @@ const ON_STRIPS: &[Case] = &[
         "730",
         &[
             "sheets.wraps[0].stretches[1].x_from_mm: left end of the stretch at 730 mm",
-            "allowed: 733.5 to 3050 mm",
+            "allowed: 735.5 to 3050 mm",
             "each behind the one to its left",
         ],
     ),
@@ -44,6 +44,35 @@ const ON_STRIPS: &[Case] = &[
         "x_to_mm: 632.5",
         "632.5",
         &["sheets.wraps[0].stretches[0].x_to_mm: ends at 632.5 mm; allowed: more than 682.5 mm"],
+    ),
+    // Edges next to lines of the mesh: an end of the beam, a plate, and, of two wraps, another sheet.
+    (
+        "x_from_mm: 682.5",
+        "x_from_mm: 661",
+        "661",
+        &[
+            "sheets.wraps[0].stretches[0].x_from_mm: edge of the sheet at 661 mm, 1.000 mm from the edge of a plate at 660 mm",
+            "allowed: on it, or 3 mm from it or more",
+            "elements between the two would be as thin as that",
+        ],
+    ),
+    (
+        "from_mm: 0, to_mm: 305",
+        "from_mm: 0, to_mm: 304.9",
+        "304.9",
+        &[
+            "sheets.wraps[0].faces[0].to_mm: edge of the sheet at 304.9 mm, 0.100 mm from the edge of the beam at 305 mm",
+        ],
+    ),
+    (
+        "        wraps: [",
+        "        wraps: [(name: \"patch\", source: \"\", \
+         stretches: [(x_from_mm: 100, x_to_mm: 200)], \
+         faces: [(face: Side, from_mm: 2, to_mm: 250, angles_deg: [90])]), ",
+        "",
+        &[
+            "sheets.wraps[0].faces[0].from_mm: edge of the sheet at 2 mm, 2.000 mm from the edge of the beam at 0 mm",
+        ],
     ),
     // A gauge between strips; two of one name.
     (
@@ -134,7 +163,7 @@ const ON_A_CONTINUOUS_SHEET: &[Case] = &[
         "",
         &[
             "sheets.wraps[0].faces[1]: sheet on the Side face between 670 and 2380 mm touches sheets.wraps[0].faces[0]",
-            "allowed: 1 mm between them, or more",
+            "allowed: 3 mm between them, or more",
         ],
     ),
     (

@@ -1,6 +1,7 @@
 //! Checks between the fields of a specimen: what no number tells alone.
 
 mod concrete;
+mod edges;
 mod reinforcement;
 mod sheets;
 mod supports;

@@ -1,14 +1,12 @@
 //! Fibre sheets lie on free faces of the beam, apart from each other, and gauges on them.
 
+use super::edges::LEAST;
 use super::{ALONG, Checks, TOLERANCE};
 use crate::column::{GAUGE_COLUMNS, TEST_SPAN, bar_gauge};
 use crate::spec::sheets::{Cover, Face, SheetGauge, Stretch, Wrap};
 
 const FACE: &str = "on the side, from_mm and to_mm are heights above the soffit; on soffit and top, \
                     distances from the middle of the width";
-
-/// Least distance (mm) between sheets: their interfaces would meet in nodes that lie in one place and are not one.
-const GAP: f64 = 1.0;
 
 /// A rectangle of sheet on a face.
 struct Patch<'a> {
@@ -78,8 +76,8 @@ impl Checks<'_> {
                 }
             }
             let alone = laid && self.passes(|c| c.covered_once(&patches));
-            if alone && supported {
-                self.clear_of_plates(&sheets.wraps);
+            if alone && supported && self.passes(|c| c.clear_of_plates(&sheets.wraps)) {
+                laid &= self.passes(|c| c.sheet_edges(&sheets.wraps));
             }
         } else if specimen.staged.is_some() {
             self.report(
@@ -128,7 +126,7 @@ impl Checks<'_> {
             if !fits {
                 break;
             }
-            least = to + GAP;
+            least = to + LEAST;
         }
         for (i, cover) in faces.iter().enumerate() {
             self.cover(&format!("{path}.faces[{i}]"), cover);
@@ -210,11 +208,11 @@ impl Checks<'_> {
                     "list all plies of a place in one `angles_deg`",
                 );
                 reported = &patch.path;
-            } else if let Some(other) = found(GAP) {
+            } else if let Some(other) = found(LEAST) {
                 self.report(
                     &patch.path,
                     format!(
-                        "sheet on the {face:?} face between {from} and {to} mm touches {}; allowed: {GAP} mm between them, or more",
+                        "sheet on the {face:?} face between {from} and {to} mm touches {}; allowed: {LEAST} mm between them, or more",
                         other.path
                     ),
                     "make one sheet of the two, or leave a gap",
