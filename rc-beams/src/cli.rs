@@ -131,7 +131,11 @@ fn run_beams(beams: &[String], options: &RunOptions) -> Result<Exit, Shown> {
     for warning in run::warnings(&specimens, options) {
         tell(format_args!("warning: {warning}"));
     }
-    run::run_all(&specimens, options).map_err(|error| show(error.exit(), error))
+    run::run_all(&specimens, options).map_err(|error| {
+        let shown = show(error.exit(), error);
+        tell("nothing was run");
+        shown
+    })
 }
 
 /// What is wrong with stored results goes to standard error, and the code tells of it.

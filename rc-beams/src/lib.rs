@@ -1,6 +1,7 @@
 //! Simulates the reinforced-concrete beams of Khalifa (1999) from first crack to failure.
 
 pub mod analysis;
+mod bound;
 pub mod build;
 pub mod cli;
 mod column;

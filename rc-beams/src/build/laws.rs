@@ -57,6 +57,11 @@ fn properties(
     Ok(read)
 }
 
+/// Whether the concrete has a law with these settings: not where no convex surface runs through its strengths.
+pub(crate) fn has_law(specimen: &Specimen, settings: &ModelSettings) -> bool {
+    concrete(specimen, settings, false).is_ok()
+}
+
 /// Mean compressive strength (MPa) as the settings read the report.
 pub(super) fn mean_strength(
     specimen: &Specimen,

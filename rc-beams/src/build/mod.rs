@@ -29,6 +29,7 @@ use fe_elements::{BandWidth, Hex20, HexRule, Installed, Led, Linear, UniformHex2
 
 pub use conditions::{Line, Measures};
 pub use gauges::Gauge;
+pub(crate) use laws::has_law;
 pub use mesh::default_mesh;
 pub use reinforcement::{BarKind, BarRecord};
 pub use settings::ModelSettings;

@@ -25,8 +25,13 @@ impl From<ResultsError> for io::Error {
     fn from(error: ResultsError) -> Self {
         match error {
             ResultsError::Output(e) => {
-                let text = format!("{e}: {}", e.source);
-                Self::new(e.source.kind(), text)
+                let kind = e.source.kind();
+                let text = match kind {
+                    // What is there already is not what would be written.
+                    io::ErrorKind::InvalidData => format!("{}: {}", e.path.display(), e.source),
+                    _ => format!("{e}: {}", e.source),
+                };
+                Self::new(kind, text)
             }
             other => Self::other(other),
         }
@@ -37,6 +42,18 @@ impl From<ResultsError> for io::Error {
 mod tests {
     //! Protects the reason on its way through the solver.
     use super::*;
+
+    #[test]
+    fn a_table_that_differs_is_not_said_to_be_unwritable() {
+        let error = ResultsError::from(OutputError {
+            path: "history.csv".into(),
+            source: io::Error::new(io::ErrorKind::InvalidData, "line 3 differs"),
+        });
+        assert_eq!(
+            io::Error::from(error).to_string(),
+            "history.csv: line 3 differs"
+        );
+    }
 
     #[test]
     fn an_error_of_the_system_keeps_its_kind_and_names_the_file() {

@@ -5,16 +5,51 @@ use std::thread;
 use fe_elements::HexRule;
 use fe_materials::fixed_crack::{CompressionSoftening, ShearTransfer};
 
-use crate::build::ModelSettings;
-use crate::options::{Bond, Cracks, Law, RunOptions, name};
+use crate::bound;
+use crate::build::{ModelSettings, has_law};
+use crate::options::{Bond, Cracks, Law, Preset, RunOptions, name};
 use crate::results::numerical_error::REFINEMENT;
 use crate::spec::Specimen;
 
-/// What is wrong with the options that have led to `settings`, and the remedy; nothing where they fit.
-pub(super) fn conflict(options: &RunOptions, settings: &ModelSettings) -> Option<String> {
+/// What is wrong with the options that have led to the `settings` of a specimen, and the remedy; nothing where they fit.
+pub(super) fn conflict(
+    options: &RunOptions,
+    settings: &ModelSettings,
+    specimen: &Specimen,
+) -> Option<String> {
     without_effect(options, settings)
         .or_else(|| too_few_points(settings))
         .or_else(|| too_fine_a_band(options, settings))
+        .or_else(|| no_surface(settings, specimen))
+}
+
+/// A surface of onset that is not convex, by options: with the defaults it is, or the specimen is refused.
+fn no_surface(settings: &ModelSettings, specimen: &Specimen) -> Option<String> {
+    let fits = |tensile_strength_factor: f64| {
+        let settings = ModelSettings {
+            tensile_strength_factor,
+            ..*settings
+        };
+        has_law(specimen, &settings)
+    };
+    let (name, factor) = (&specimen.name, settings.tensile_strength_factor);
+    if fits(factor) {
+        None
+    } else if fits(1.0) {
+        let allowed = bound::allowed(bound::last(1.0, factor, fits), factor);
+        Some(format!(
+            "--tensile-strength-factor {factor} does not go with the compressive strength of {name}; allowed: {allowed}"
+        ))
+    } else if settings.preset != Preset::Physical {
+        let strength = specimen.concrete.reported_strength_mpa.get();
+        let preset = self::name(&settings.preset);
+        Some(format!(
+            "--preset {preset} reads the strength of {name}, {strength} MPa, as characteristic, and no convex surface of onset \
+             belongs to it: take --preset physical, or give a lower concrete.reported_strength_mpa"
+        ))
+    } else {
+        None
+    }
 }
 
 /// The finer mesh that an error bar needs has the limits of any other.

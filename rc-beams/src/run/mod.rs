@@ -58,7 +58,7 @@ pub fn run_all(specimens: &[Specimen], options: &RunOptions) -> Result<Exit, Run
     let mut queue = Vec::new();
     for specimen in specimens {
         let settings = settings(options, specimen);
-        if let Some(conflict) = conflicts::conflict(options, &settings) {
+        if let Some(conflict) = conflicts::conflict(options, &settings, specimen) {
             return Err(RunError::Options(conflict));
         }
         let beam = build(specimen, &settings)?;
@@ -173,7 +173,11 @@ fn run(
     };
     let unfinished = recording.is_resuming() && failure.is_some();
     if let Some(error) = failure.filter(|_| unfinished && !interrupt.is_set()) {
-        return Err(CheckpointError::of(&folder, error.to_string()).into());
+        let reason = match error {
+            AnalysisError::Solver(SolverError::Output(table)) => table.to_string(),
+            other => other.to_string(),
+        };
+        return Err(CheckpointError::of(&folder, reason).into());
     }
     let outcome = match done {
         _ if interrupt.is_set() && (unfinished || done.is_err()) => {

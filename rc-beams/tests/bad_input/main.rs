@@ -453,6 +453,15 @@ const CASES: &[Case] = &[
         &["series: no such choice", "allowed: A, B"],
     ),
     (
+        "title: \"Simply",
+        "title: \"Two\\nlines, simply",
+        "",
+        &[
+            "title: \"Two\\nlines",
+            "control characters; allowed: one line",
+        ],
+    ),
+    (
         "name: \"A-SO3-1\"",
         "name: \"../x\"",
         "\"../x\"",
@@ -559,7 +568,20 @@ const COMMANDS: &[Arguments] = &[
     (
         &["run", "A-SO3-1", "-o", "file/below"],
         4,
-        &["cannot write file/below"],
+        &["cannot write file/below", "nothing was run"],
+    ),
+    (
+        &["run", "A-SO3-1", "--tensile-strength-factor", "0.25"],
+        2,
+        &[
+            "--tensile-strength-factor 0.25 does not go with the compressive strength of A-SO3-1; allowed: from 0.27",
+            "nothing was run",
+        ],
+    ),
+    (
+        &["run", "A-SO3-1", "--tensile-strength-factor", "4"],
+        2,
+        &["allowed: up to 3.26"],
     ),
     (
         &["run", "A-SO3-2", "--bond", "perfect", "--counterfactual"],

@@ -5,9 +5,7 @@ use fe_materials::concrete::{Calibration, ConcreteScalars, Ottosen};
 use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 
 use super::Checks;
-
-/// Halvings that find the bounds of a tensile strength.
-const HALVINGS: usize = 40;
+use crate::bound;
 
 impl Checks<'_> {
     /// The concrete is stiffer than the secant to its strength, of a strength for which the bond of sheets is known, and its
@@ -53,24 +51,13 @@ impl Checks<'_> {
         if convex(value) || !convex(mean.fctm_mpa) {
             return;
         }
-        // The bound between the strength of the Code, which does, and one that does not.
-        let (mut fits, mut fails) = (mean.fctm_mpa, value);
-        for _ in 0..HALVINGS {
-            let middle = fits.midpoint(fails);
-            if convex(middle) {
-                fits = middle;
-            } else {
-                fails = middle;
-            }
-        }
-        let allowed = if value > fits {
-            format!("up to {:.2} MPa", (100.0 * fits).floor() / 100.0)
-        } else {
-            format!("from {:.2} MPa", (100.0 * fits).ceil() / 100.0)
-        };
+        // The strength of the Code does.
+        let allowed = bound::allowed(bound::last(mean.fctm_mpa, value, convex), value);
         self.report(
             "concrete.reported_tensile_mpa",
-            format!("{value} MPa does not go with the compressive strength; allowed: {allowed}"),
+            format!(
+                "{value} MPa does not go with the compressive strength; allowed: {allowed} MPa"
+            ),
             format!(
                 "leave it out for that of the Model Code, {:.2} MPa",
                 mean.fctm_mpa

@@ -136,9 +136,16 @@ impl Checks<'_> {
         self.specimen.half_width_mm()
     }
 
-    /// The name is that of a folder.
+    /// The name is that of a folder, the title a line.
     fn name(&mut self) {
-        let name = &self.specimen.name;
+        let Specimen { name, title, .. } = self.specimen;
+        if title.chars().any(char::is_control) {
+            self.report(
+                "title",
+                format!("{title:?} has control characters; allowed: one line of letters, digits and signs"),
+                "take them out: the title is printed and drawn as one line",
+            );
+        }
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
         let short = (1..=LONGEST_NAME).contains(&name.len());
         if !short || name.starts_with('.') || !name.chars().all(plain) {
