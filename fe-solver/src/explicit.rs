@@ -4,7 +4,7 @@
 //!
 //! M a + 2 xi omega_1 M v = f_ext - f_int,  m_i = sum_j |K_ij|,
 //!
-//! with K the elastic stiffness. By Gershgorin's theorem no frequency exceeds 1, so that central differences are stable up
+//! with K the elastic stiffness, that of the virgin model: what has cracked by the start may close again. By Gershgorin's theorem no frequency exceeds 1, so that central differences are stable up
 //! to a time step of 2 (Belytschko, Liu and Moran 2000, section 6.2; fictitious masses: Underwood 1983). omega_1 is the
 //! Rayleigh quotient of the elastic shape under the load. The load factor grows at a rate of so many periods of omega_1
 //! per unit. History is kept after every time step: a snap runs its course while the load goes on, slowed by inertia.
@@ -30,7 +30,8 @@ pub struct ExplicitSettings {
     pub damping: f64,
     /// Time step; stable below 2. Not below 1e-3, with which a run would hardly end.
     pub time_step: f64,
-    /// Periods over which the load factor gathers speed.
+    /// Periods in which the speed of the load factor grows e-fold, from 1/20 of the full one: that is reached after ln 20,
+    /// three, times as many.
     pub ramp: f64,
 }
 
@@ -107,12 +108,15 @@ impl Explicit {
         })
     }
 
-    /// Masses and lowest frequency from the stiffness at the accepted state; at rest.
+    /// Masses from the stiffness of the virgin model, or that at the accepted state where it is larger, and lowest frequency
+    /// from the latter; at rest.
     fn start(stage: &mut Stage<'_>) -> Result<Motion, SolverError> {
         let u = stage.displacement().to_vec();
+        let virgin = stage.virgin_row_sums()?;
         let operator = EvaluationContext::new(Operator::Secant);
         stage.residual(&u, stage.lambda(), &operator)?;
-        let mass = stage.absolute_row_sums();
+        let present = stage.absolute_row_sums();
+        let mass: Vec<f64> = virgin.iter().zip(present).map(|(v, p)| v.max(p)).collect();
         stage.factorise()?;
         let mut shape = stage.reference_load();
         stage.solve(&mut shape)?;

@@ -370,6 +370,24 @@ impl<'m> Stage<'m> {
         Ok(())
     }
 
+    /// Evaluates the virgin model at rest with its secant operator and returns sum_j |K_ij| of the free equations (N/mm).
+    /// Histories and displacement of the stage stay.
+    pub(crate) fn virgin_row_sums(&mut self) -> Result<Vec<f64>, SolverError> {
+        let mut virgin = StateStore::new(self.model.elements());
+        let rest = vec![0.0; self.start.len()];
+        let operator = EvaluationContext::new(Operator::Secant);
+        self.counters.force_evaluations += 1;
+        self.evaluated = None;
+        self.assembler.evaluate(
+            self.model,
+            &rest,
+            &mut virgin,
+            &operator,
+            &mut self.assembled,
+        )?;
+        Ok(self.absolute_row_sums())
+    }
+
     /// sum_j |K_ij| of the free equations (N/mm) of the last operator, which must be symmetric.
     pub(crate) fn absolute_row_sums(&self) -> Vec<f64> {
         let pattern = self.assembler.pattern();
