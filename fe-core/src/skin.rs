@@ -142,19 +142,25 @@ impl Layers {
                 distance,
             });
         }
-        let mut copies = nodes;
-        for copy in &mut copies {
-            let key = (*copy, layer);
-            if let Some(&id) = self.copies.get(&key) {
-                *copy = id;
-                continue;
+        // All places before the first node: a failure leaves nothing.
+        let mut places = [[0.0; 3]; N];
+        for (place, node) in places.iter_mut().zip(nodes) {
+            let off = MeshError::OffFaces(node);
+            let direction = self.directions.get(&node).ok_or(off.clone())?;
+            let x = mesh.nodes().get(node).ok_or(off)?;
+            *place = std::array::from_fn(|k| x[k] + distance * direction[k]);
+            if place.iter().any(|x| !x.is_finite()) {
+                return Err(MeshError::NotFinite(mesh.nodes().len()));
             }
-            let off = MeshError::OffFaces(*copy);
-            let direction = *self.directions.get(copy).ok_or(off.clone())?;
-            let x = *mesh.nodes().get(*copy).ok_or(off)?;
-            let id = mesh.add_node(std::array::from_fn(|k| x[k] + distance * direction[k]))?;
-            self.copies.insert(key, id);
-            *copy = id;
+        }
+        let mut copies = nodes;
+        for (copy, place) in copies.iter_mut().zip(places) {
+            let key = (*copy, layer);
+            *copy = match self.copies.get(&key) {
+                Some(&id) => id,
+                None => mesh.add_node(place)?,
+            };
+            self.copies.insert(key, *copy);
         }
         self.distances.entry(layer).or_insert(distance);
         Ok(copies)
@@ -237,6 +243,11 @@ mod tests {
                 Err(MeshError::OffFaces(off))
             );
         }
+        // What fails at its second node leaves no copy of the first.
+        let before = mesh.clone();
+        let half = [own[0], other.unwrap()];
+        assert!(layers.nodes(&mut mesh, half, 0, 0.1).is_err());
+        assert!(mesh == before && layers.pairs().next().is_none());
         let first = layers.nodes(&mut mesh, own, 0, 0.1).unwrap();
         assert_eq!(layers.nodes(&mut mesh, own, 0, 0.1), Ok(first));
         assert!(matches!(

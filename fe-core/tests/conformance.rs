@@ -58,6 +58,15 @@ fn a_tangent_off_by_one_percent_is_found() {
     assert!((given / difference - 1.01).abs() < 1e-6);
 }
 
+/// All tolerances are measured by it: with an infinite one nothing would be found.
+#[test]
+fn a_virgin_tangent_that_is_no_number_is_found() {
+    let found = failure(Flaw::RigidAtRest).to_string();
+    assert!(found.contains("virgin tangent is inf"), "{found}");
+    let found = element_failure(Flaw::RigidAtRest, Flaw::None).to_string();
+    assert!(found.contains("virgin stiffness is"), "{found}");
+}
+
 #[test]
 fn a_law_that_reads_the_trial_state_is_found() {
     assert!(matches!(

@@ -57,6 +57,14 @@ pub struct Seen<V> {
     pub(crate) view: V,
 }
 
+impl<V: View> Seen<V> {
+    /// The element as the view shows it. Whether the view keeps the contract of elements is for
+    /// [`check_element`](fe_core::testing::check_element) to find out.
+    pub fn through(element: Box<dyn Element>, view: V) -> Self {
+        Self { element, view }
+    }
+}
+
 impl<V: View> Element for Seen<V> {
     fn nodes(&self) -> &[NodeId] {
         self.view.nodes(self.element.nodes())

@@ -45,18 +45,34 @@ pub struct SolidElement<I> {
 }
 
 impl<I: Interpolation> SolidElement<I> {
-    /// An element with integration points at `positions` (mm).
+    /// An element with integration points at `positions` (mm): one for each volume of the interpolation, 27 at most.
     ///
     /// # Errors
     ///
-    /// [`ElementError::Input`] for a crack-band width (mm) that is not positive, [`ElementError::Material`] when the law
-    /// refuses it.
-    pub(crate) fn of(
+    /// [`ElementError::Input`] for another number of points, or a volume or a crack-band width (mm) that is not positive,
+    /// [`ElementError::Material`] when the law refuses that width.
+    pub fn of(
         interpolation: I,
         positions: Vec<[f64; 3]>,
         law: Arc<dyn Material<Solid>>,
         band_width: f64,
     ) -> Result<Self, ElementError> {
+        let volumes = interpolation.volumes().count();
+        if positions.len() != volumes || volumes > MAX_POINTS {
+            return Err(ElementError::Input {
+                what: "number of integration points with a position".into(),
+                value: positions.len() as f64,
+                allowed: format!("{volumes}, one for each volume, and {MAX_POINTS} at most"),
+                remedy: "give every integration point its position".into(),
+            });
+        }
+        for volume in interpolation.volumes() {
+            positive(
+                "volume of an integration point (mm3)",
+                volume,
+                "number the nodes so that the element is not turned inside out",
+            )?;
+        }
         positive(
             "crack-band width (mm)",
             band_width,

@@ -67,7 +67,8 @@ pub struct StepView<'a> {
 pub enum Continue {
     /// Go on.
     Yes,
-    /// Go on with a step no longer than this, in the load factor, but for the shortest: to end at a load, for instance.
+    /// Go on with a step no longer than this, in the unit of [`StepControl::initial`](crate::control::StepControl::initial), but for
+    /// the shortest: to end at a load, for instance.
     AtMost(f64),
     /// Stop after this step, for the stated reason.
     Stop(String),

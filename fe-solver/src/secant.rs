@@ -8,7 +8,7 @@ use crate::capacity::DROP_FALL;
 use crate::descent::{Descent, DescentSettings};
 use crate::driver::{Attempt, Driver, IterationLog, Request};
 use crate::error::SolverError;
-use crate::stage::{Residual, Stage};
+use crate::stage::{LEAST_FORCE, Residual, Stage};
 
 /// Settings of [`SecantAnderson`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -318,11 +318,11 @@ impl SecantAnderson {
         after > 0 && iterations >= after
     }
 
-    /// Share of the accepted load lost in the last evaluation, nothing where there was none; not a number where the load
-    /// factor drives forces only.
+    /// Share of the accepted load lost in the last evaluation, nothing where there was none but rounding; not a number where
+    /// the load factor drives forces only.
     fn loss(stage: &Stage<'_>) -> f64 {
         let (load, accepted) = (stage.load(), stage.accepted_load());
-        if accepted == 0.0 && load != 0.0 {
+        if accepted.abs() <= LEAST_FORCE && load != 0.0 {
             return 0.0;
         }
         1.0 - load / accepted

@@ -10,9 +10,12 @@ use fe_core::state::StateStore;
 use fe_core::voigt::isotropic;
 use fe_elements::HexRule;
 use fe_materials::VonMises;
+use fe_materials::fixed_crack::{FixedCrack, FixedCrackParameters};
 use fe_solver::control::StepControl;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings};
-use fe_solver::path::{DissipatedEnergy, Dissipation, PathConstraint};
+use fe_solver::path::{
+    DissipatedEnergy, Dissipation, Energies, LoadFactor, LoadedDisplacement, PathConstraint,
+};
 use fe_solver::recorder::{Continue, Recorder, StepView};
 use fe_solver::stage::Stage;
 use fe_tests::conditions::{hold, push_faces};
@@ -146,6 +149,69 @@ fn a_path_that_dissipates_nothing_is_refused() {
             assert!(says.iter().any(|s| stopped.contains(s)), "{stopped}");
         }
     }
+}
+
+/// Protects the energies that forces tell where a part of them is dead load: those of the elements, which know nothing of forces.
+/// A bar that cracks and unloads along its secant, under 300 N from a stage before; target 1e-6 of the work.
+#[test]
+fn forces_tell_the_same_energies_as_elements_under_dead_loads() {
+    let parameters = FixedCrackParameters::from_strength(30.0, 2.5, 30_000.0);
+    let law = Arc::new(FixedCrack::new(parameters, None).unwrap());
+    let (model, alone) = pulled(law);
+    let mut both = alone.clone();
+    for (dof, share) in alone.reference().iter().enumerate() {
+        let (node, kind) = model.dofs().owner(dof);
+        both.add_dead(&model, node, kind, 100.0 * share).unwrap();
+    }
+    let mut state = StateStore::new(model.elements());
+    let rest = vec![0.0; model.dofs().len()];
+    let control = |length: f64, steps: f64| StepControl {
+        criterion: 1e-10,
+        ..StepControl::new(length, steps * length)
+    };
+    let mut dead = Stage::new(&model, alone, &mut state, rest).unwrap();
+    let mut newton = under::<LoadFactor>();
+    control(50.0, 2.0)
+        .run(&mut dead, &mut newton, &mut Path::default())
+        .unwrap();
+    let at = dead.displacement().to_vec();
+    let mut stage = Stage::new(&model, both, &mut state, at).unwrap();
+    let (mut newton, mut dissipates) = (under::<LoadedDisplacement>(), 0.0_f64);
+    for _ in 0..12 {
+        control(2e-4, 1.0)
+            .run(&mut stage, &mut newton, &mut Path::default())
+            .unwrap();
+        let (told, change) = (
+            Energies::last(&stage).unwrap().unwrap(),
+            stage.last_change(),
+        );
+        let measured = change.unwrap();
+        let error = [
+            told.work - measured.work,
+            told.dissipated - measured.dissipated(),
+        ];
+        let small = error.iter().all(|e| e.abs() < 1e-6 * measured.work.abs());
+        assert!(small, "{told:?} for {measured:?}");
+        dissipates = dissipates.max(told.dissipated / told.work.abs());
+    }
+    assert!(dissipates > 0.3, "{dissipates}");
+}
+
+/// Protects against energies that forces do not tell: those of a model whose support has moved.
+#[test]
+fn a_displaced_support_is_refused_where_forces_are_to_tell_the_energy() {
+    let law = Arc::new(VonMises::new(YOUNG, 0.3, YIELD, HARDENING).unwrap());
+    let (model, conditions) = pulled(law);
+    let mut moved = vec![0.0; model.dofs().len()];
+    let (&held, _) = conditions.prescribed().first_key_value().unwrap();
+    moved[held] = 0.01;
+    let mut state = StateStore::new(model.elements());
+    let stage = Stage::new(&model, conditions, &mut state, moved.clone()).unwrap();
+    let refused = Energies::to(&stage, &moved, 0.0).unwrap_err().to_string();
+    assert!(
+        refused.contains("displacement (mm) of a held DOF"),
+        "{refused}"
+    );
 }
 
 /// A law that heals: its secant modulus grows with the strain, and it states no energy.

@@ -156,6 +156,11 @@ impl Conditions {
         }
     }
 
+    /// Force (N) that acts in full throughout the stage, all DOFs.
+    pub fn dead(&self) -> &[f64] {
+        &self.dead
+    }
+
     /// Force (N) per unit of the load factor, all DOFs.
     pub fn reference(&self) -> &[f64] {
         &self.reference

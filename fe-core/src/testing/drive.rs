@@ -59,6 +59,9 @@ impl<'a> Drive<'a> {
         element.init_state(&mut drive.base);
         finite(drive.place, &drive.base, state_label)?;
         let virgin = drive.evaluate(&vec![0.0; n], Operator::Tangent, f64::NAN)?;
+        finite(drive.place, &virgin.stiffness, |_| {
+            "virgin stiffness".to_owned()
+        })?;
         drive.stiffness = norm(&virgin.stiffness);
         Ok(drive)
     }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
 
 use super::difference::norm;
-use super::failure::{CheckFailure, Place};
+use super::failure::{CheckFailure, Place, finite};
 use super::path::RandomPath;
 use super::random::Random;
 use super::settings::MaterialCheck;
@@ -94,9 +94,13 @@ fn virgin_stiffness(law: &dyn Material<Solid>, check: &MaterialCheck) -> Result<
     law.init_state(&mut virgin);
     let mut trial = virgin.clone();
     let ctx = check.context.with_operator(Operator::Tangent);
-    law.update(&Vector6::zeros(), &virgin, &mut trial, &ctx)
-        .map(|response| norm(&entries::<Solid>(&response.tangent)))
-        .map_err(|source| CheckFailure::material(Place { path: 0, step: 0 }, source))
+    let place = Place { path: 0, step: 0 };
+    let response = law
+        .update(&Vector6::zeros(), &virgin, &mut trial, &ctx)
+        .map_err(|source| CheckFailure::material(place, source))?;
+    let tangent = entries::<Solid>(&response.tangent);
+    finite(place, &tangent, |_| "virgin tangent".to_owned())?;
+    Ok(norm(&tangent))
 }
 
 /// Axes turned by up to pi about a random direction.

@@ -51,7 +51,9 @@ impl<'a, K: Kinematics> Walk<'a, K> {
         law.init_state(&mut walk.committed);
         finite(walk.place, &walk.committed, |i| walk.state_label(i))?;
         let virgin = walk.update(&walk.strain, Operator::Tangent, &walk.committed, f64::NAN)?;
-        walk.stiffness = norm(&entries::<K>(&virgin.response.tangent));
+        let tangent = entries::<K>(&virgin.response.tangent);
+        finite(walk.place, &tangent, |_| "virgin tangent".to_owned())?;
+        walk.stiffness = norm(&tangent);
         Ok(walk)
     }
 

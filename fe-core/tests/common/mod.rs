@@ -74,6 +74,8 @@ pub enum Flaw {
     SoftensOnUnloading,
     /// Its free energy is infinite.
     EndlessEnergy,
+    /// Its tangent at no strain is infinite.
+    RigidAtRest,
     IndefiniteSecant,
     StressOfTheOldState,
     OtherStressWithoutOperator,
@@ -180,6 +182,7 @@ impl Material<Axial> for Damage {
         }
         match self.0 {
             Flaw::TangentOffByOnePercent if ctx.operator == Operator::Tangent => tangent *= 1.01,
+            Flaw::RigidAtRest if e == 0.0 => tangent = f64::INFINITY,
             Flaw::IndefiniteSecant if ctx.operator == Operator::Secant => tangent = -tangent,
             Flaw::OtherStressWithoutOperator if ctx.operator == Operator::None => {
                 stress *= 1.0 + 1e-15;

@@ -353,13 +353,13 @@ impl StepControl {
 }
 
 /// Whether an attempt that misses the criterion ends in a state of the model, and has not diverged: what breaks off may go
-/// far, but not by more than the size of the model, in which displacements are small.
+/// far, but not by more than the size of the model, if it has one, in which displacements are small.
 fn is_a_state(stage: &Stage<'_>, attempt: &Attempt) -> bool {
     let mut ways = attempt.displacement.iter().zip(stage.displacement());
     let extent = stage.model().mesh().extent();
     attempt.lambda.is_finite()
         && attempt.residual.relative <= UNBALANCED
-        && ways.all(|(to, from)| (to - from).abs() <= extent)
+        && (extent == 0.0 || ways.all(|(to, from)| (to - from).abs() <= extent))
 }
 
 /// Gives an attempt up for a shorter step.

@@ -27,7 +27,7 @@ const NOISE: f64 = 1e-13;
 #[derive(Debug, Clone, Default)]
 pub struct DissipatedEnergy {
     length: f64,
-    /// Dissipation of the last step; none before the first and after a snap.
+    /// Dissipation of the last step; none before the first, after a snap, and where it is rounding.
     last: Option<f64>,
     value: f64,
     gradient: Vec<f64>,
@@ -36,13 +36,14 @@ pub struct DissipatedEnergy {
 impl PathConstraint for DissipatedEnergy {
     fn begin(&mut self, stage: &Stage<'_>, length: f64) -> Result<(), SolverError> {
         self.length = length;
-        self.last = stage.last_change().map(|change| change.dissipated());
+        let last = stage.last_change();
+        let told = last.filter(|change| change.dissipated() > NOISE * change.turnover);
+        self.last = told.map(|change| change.dissipated());
         Ok(())
     }
 
     fn extrapolate(&self, _du: &[f64], _dlambda: f64) -> Option<f64> {
-        let last = self.last.filter(|d| *d > 0.0)?;
-        Some(self.length / last)
+        Some(self.length / self.last?)
     }
 
     fn observe(

@@ -32,7 +32,7 @@
 //! debonded share and ratio were set on ten histories of strengthened beams, not on an independent set; refining
 //! a mesh can move a beam by one row.
 
-mod flat;
+pub mod flat;
 
 use std::fmt;
 
