@@ -78,7 +78,17 @@ pub struct Automatic {
     rate: f64,
     /// Accepted steps of the stage when it was looked at last.
     seen: usize,
+    /// What the last attempt has replaced, until it is accepted.
+    replaced: Option<Replaced>,
     notes: Vec<String>,
+}
+
+/// Control and mode before another control served.
+#[derive(Debug)]
+struct Replaced {
+    control: Control,
+    /// None where the mode has stayed.
+    mode: Option<Option<NewtonRaphson>>,
 }
 
 impl Automatic {
@@ -96,6 +106,7 @@ impl Automatic {
             length: 0.0,
             rate: 0.0,
             seen: 0,
+            replaced: None,
             notes: Vec::new(),
         }
     }
@@ -169,11 +180,7 @@ impl Automatic {
                 displacement: stage.displacement().to_vec(),
                 lambda: stage.lambda(),
                 converged: false,
-                residual: Residual {
-                    relative: f64::INFINITY,
-                    largest: f64::INFINITY,
-                    worst: 0,
-                },
+                residual: Residual::ENDLESS,
                 iterations: 0,
                 held: false,
                 means: None,
@@ -295,6 +302,12 @@ impl Driver for Automatic {
         if stage.conditions().reference().iter().all(|f| *f == 0.0) {
             return self.impose(stage, request, log);
         }
+        if let Some(before) = self.replaced.take() {
+            self.switch(before.control, "the step that had changed it was refused");
+            if let Some(mode) = before.mode {
+                self.mode = mode;
+            }
+        }
         self.look_back(stage)?;
         let usual = self.control;
         let mut result = self.run(stage, request, log);
@@ -313,6 +326,10 @@ impl Driver for Automatic {
                 match again {
                     Ok(attempt) if attempt.converged => {
                         self.switch(other, "a step of the same length failed under the other");
+                        self.replaced = Some(Replaced {
+                            control: usual,
+                            mode: kept,
+                        });
                         (result, serves) = (Ok(attempt), true);
                         break;
                     }
@@ -334,6 +351,10 @@ impl Driver for Automatic {
             attempt.residual = stage.measure(&r);
         }
         result
+    }
+
+    fn accepted(&mut self) {
+        self.replaced = None;
     }
 
     /// What steps under imposed displacements depend on. Control under forces is not kept.

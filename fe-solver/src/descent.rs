@@ -92,6 +92,8 @@ pub(crate) struct Descent {
     lambda: f64,
     /// Residual there (N).
     pub residual: Vec<f64>,
+    /// Its size, against the forces there.
+    size: Residual,
     /// Iterations with the present factor.
     age: usize,
     /// Whether the last step was so short that another operator is needed.
@@ -117,6 +119,7 @@ impl Descent {
             free,
             lambda,
             residual: Vec::new(),
+            size: Residual::ENDLESS,
             age: 0,
             stale: false,
             reach: 1.0,
@@ -152,6 +155,7 @@ impl Descent {
     fn renew(&mut self, stage: &mut Stage<'_>) -> Result<(), SolverError> {
         let free = std::mem::take(&mut self.free);
         self.residual = self.evaluate(stage, &free, Operator::Secant)?;
+        self.size = stage.measure(&self.residual);
         self.free = free;
         self.factorise(stage)
     }
@@ -173,10 +177,9 @@ impl Descent {
         steps: usize,
         log: &mut IterationLog<'_>,
     ) -> Result<Residual, SolverError> {
-        let mut size = stage.measure(&self.residual);
         for _ in 0..steps {
-            self.largest = self.largest.max(size.relative);
-            if size.relative <= target || !size.relative.is_finite() {
+            self.largest = self.largest.max(self.size.relative);
+            if self.size.relative <= target || !self.size.relative.is_finite() {
                 break;
             }
             if self.is_due() {
@@ -185,12 +188,11 @@ impl Descent {
                 self.renew(stage)?;
             }
             let alpha = self.step(stage)?;
-            size = stage.measure(&self.residual);
-            log(&size, alpha)?;
+            log(&self.size, alpha)?;
             stage.advance();
             self.stale = alpha < STALE && self.age >= SERVED;
         }
-        Ok(size)
+        Ok(self.size)
     }
 
     /// Whether the present factor has served its time: the last step with it evaluates the next operator.
@@ -237,6 +239,7 @@ impl Descent {
             let residual = self.evaluate(stage, &trial, operator)?;
             let there = dot(&residual, &du);
             if there >= -self.settings.overshoot * slope || alpha <= self.settings.least_factor {
+                self.size = stage.measure(&residual);
                 (self.free, self.residual) = (trial, residual);
                 self.reach = self.reach_after(alpha, slope, there);
                 return Ok(alpha);

@@ -171,6 +171,10 @@ impl SecantAnderson {
             let near = best.as_ref().is_some_and(|(b, _)| *b < NEAR);
             let stalled = near && iterations >= halved.1 + STALL;
             if stalled || iterations >= self.settings.max_iterations || !size.relative.is_finite() {
+                if rebuild {
+                    // The operator is no longer that of the factor.
+                    stage.forget_tangent();
+                }
                 let (relative, free) = best.unwrap_or((size.relative, free));
                 return Ok(Solve {
                     free,

@@ -8,8 +8,10 @@
 use std::sync::Arc;
 
 use fe_core::dof::Dof;
+use fe_core::element::Element;
 use fe_core::mesh::Mesh;
 use fe_core::model::{Conditions, Model};
+use fe_core::state::StateStore;
 use fe_elements::Truss3;
 use fe_materials::Elastic;
 use fe_solver::automatic::Automatic;
@@ -18,6 +20,8 @@ use fe_solver::critical::Critical;
 use fe_solver::driver::Driver;
 use fe_solver::newton::{NewtonRaphson, NewtonSettings};
 use fe_solver::path::{ArcLength, Dissipation, LoadFactor, LoadedDisplacement, PathConstraint};
+use fe_solver::recorder::Silent;
+use fe_solver::stage::Stage;
 use fe_tests::conditions::hold;
 use fe_tests::follow::{Path, follow, gone, steps};
 use fe_tests::laws::Softening;
@@ -189,6 +193,41 @@ fn arc_lengths_on_the_strip() {
         for length in [0.05, 0.1, 0.2] {
             let legs = vec![(steps(length, 1e-5), newton(constraint.clone()))];
             assert_arrived(&STRIP, &path(&STRIP, legs));
+        }
+    }
+}
+
+/// Two springs of 1000 N/mm in series, drawn at the end: the first arc has the length asked for as any other (with displacements of
+/// 1 and 2 times one number its predictor would reach 1.118 times as far along the forces alone), target 1e-12.
+#[test]
+fn the_first_arc_is_as_long_as_the_next() {
+    let places: Vec<[f64; 3]> = (0..5).map(|i| [50.0 * f64::from(i), 0.0, 0.0]).collect();
+    let mesh = Mesh::new(places.clone()).unwrap();
+    let elastic = Arc::new(Elastic::new(100_000.0, 0.0).unwrap());
+    let spring = |nodes: [usize; 3]| {
+        let ends = nodes.map(|n| places[n]);
+        let truss = Truss3::new(nodes, &ends, 1.0, elastic.clone()).unwrap();
+        Box::new(truss) as Box<dyn Element>
+    };
+    let model = Model::new(mesh, vec![spring([0, 2, 1]), spring([2, 4, 3])]).unwrap();
+    let mut conditions = Conditions::new(&model);
+    hold(&model, &mut conditions, &[Dof::Uy, Dof::Uz], |_| true).unwrap();
+    hold(&model, &mut conditions, &[Dof::Ux], |x| x[0] == 0.0).unwrap();
+    conditions.add_reference(&model, 4, Dof::Ux, 1.0).unwrap();
+    for psi in [0.0, 1e-3] {
+        let mut state = StateStore::new(model.elements());
+        let rest = vec![0.0; model.dofs().len()];
+        let mut stage = Stage::new(&model, conditions.clone(), &mut state, rest).unwrap();
+        let mut driver = newton(ArcLength::spherical(psi));
+        for step in 0..3 {
+            let control = StepControl::new(0.2, 0.2);
+            control
+                .run(&mut stage, driver.as_mut(), &mut Silent)
+                .unwrap();
+            let (du, dlambda) = stage.previous().unwrap();
+            let squares: f64 = du.iter().map(|u| u * u).sum();
+            let arc = (squares + (psi * dlambda).powi(2)).sqrt();
+            assert!((arc / 0.2 - 1.0).abs() < 1e-12, "step {step}: {arc}");
         }
     }
 }

@@ -23,8 +23,8 @@ pub struct ConcreteCase {
     pub poisson: Option<f64>,
     /// Strain at the compressive strength, positive (-).
     pub eps_c1: Option<f64>,
-    /// Strain at which the compression curve ends, positive (-); without use in [`FixedCrack`](crate::fixed_crack::FixedCrack),
-    /// whose curve ends by the crushing energy.
+    /// Strain at which the compression curve ends, positive (-); without use in [`FixedCrack`](crate::fixed_crack::FixedCrack)
+    /// and [`Objective`](crate::concrete::Objective), whose curves end by the crushing energy.
     pub eps_c_lim: Option<f64>,
     /// Fracture energy (N/mm); without use in laws that have no crack band: [`Associated`](crate::concrete::Associated),
     /// [`Isochoric`](crate::concrete::Isochoric) and [`Reference`](crate::concrete::Reference).

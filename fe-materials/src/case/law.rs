@@ -229,7 +229,10 @@ impl LawCase {
                 let c = concrete.build_for("Isochoric", Property::FractureEnergy)?;
                 solid(Isochoric::new(&c)?)
             }
-            Self::Objective { concrete, .. } => solid(Objective::new(&concrete.build()?)?),
+            Self::Objective { concrete, .. } => {
+                let c = concrete.build_for("Objective", Property::LimitStrain)?;
+                solid(Objective::new(&c)?)
+            }
             Self::Reference {
                 concrete,
                 stiffening,

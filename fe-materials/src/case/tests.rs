@@ -132,14 +132,14 @@ fn bar_sample_gives_the_printed_stresses() {
 
 /// A property that a law would pass over in silence is refused with its name and that of the law; where it counts, it is taken.
 #[test]
-fn properties_without_use_are_refused() {
+fn properties_without_use_are_refused_and_others_have_one() {
     let limit = ("eps_c_lim", "eps_c_lim: 0.004");
     let energy = ("fracture_energy_n_per_mm", "fracture_energy_n_per_mm: 0.1");
     let reference = "stiffening: Stirrups";
     for (law, rest, (property, given), used) in [
         ("FixedCrack", "band_width_mm: 30", limit, false),
         ("FixedCrack", "band_width_mm: 30", energy, true),
-        ("Objective", "band_width_mm: 30", limit, true),
+        ("Objective", "band_width_mm: 30", limit, false),
         ("Objective", "band_width_mm: 30", energy, true),
         ("Reference", reference, limit, true),
         ("Reference", reference, energy, false),
@@ -147,11 +147,20 @@ fn properties_without_use_are_refused() {
         ("Isochoric", "", energy, false),
         ("Associated", "", energy, false),
     ] {
-        let text = format!("{law}(concrete: (fck_mpa: 30, {given}), {rest})");
-        let found = case(&text, r#"strain: {"eps_xx": -0.0001}"#).run();
+        // Pressed beyond the end of the curve, or drawn beyond the crack.
+        let strain = if property == "eps_c_lim" { -0.01 } else { 1e-3 };
+        let strained = format!(r#"strain: {{"eps_xx": {strain}}}"#);
+        let run = |given: &str| {
+            let text = format!("{law}(concrete: (fck_mpa: 30{given}), {rest})");
+            case(&text, &strained).run()
+        };
+        let found = run(&format!(", {given}"));
         if used {
-            assert_eq!(found.map(|run| run.result), Ok(Ok(())), "{text}");
+            let (found, without) = (found.unwrap(), run("").unwrap());
+            assert_eq!(found.result, Ok(()), "{law} {given}");
+            assert_ne!(found.history, without.history, "{law} {given}");
         } else {
+            let text = format!("{law} {given}");
             assert_eq!(found, Err(CaseError::Unused { law, property }), "{text}");
         }
     }

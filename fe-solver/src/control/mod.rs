@@ -252,6 +252,12 @@ impl StepControl {
                     flagged = done.flagged(flagged);
                     length = self.next_length(length, longest, &done);
                     at_most = match done.verdict.longest_step() {
+                        Ok(longest) if longest.is_nan() => {
+                            return Err(SolverError::NoNumber {
+                                what: "longest step that a recorder allows".into(),
+                                value: longest,
+                            });
+                        }
                         Ok(longest) => longest,
                         Err(reason) => return Ok(reason),
                     };

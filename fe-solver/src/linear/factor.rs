@@ -51,6 +51,10 @@ impl Factor {
     ) -> Result<bool, LinearError> {
         self.kind = kind;
         if kind == Kind::General {
+            let more = self.lower.len() - self.upper.len();
+            self.upper
+                .try_reserve_exact(more)
+                .map_err(|_| LinearError::OutOfMemory)?;
             self.upper.resize(self.lower.len(), 0.0);
         }
         let job = Job {

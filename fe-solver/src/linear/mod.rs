@@ -111,7 +111,8 @@ pub trait LinearSolver {
     /// # Errors
     ///
     /// [`LinearError::Singular`] naming an equation that takes part in a zero-energy mode, [`LinearError::NotFinite`],
-    /// [`LinearError::NotAnalysed`], and [`LinearError::Mismatch`] for values of another pattern.
+    /// [`LinearError::NotAnalysed`], [`LinearError::Mismatch`] for values of another pattern, and [`LinearError::OutOfMemory`] when
+    /// the upper factor of an unsymmetric matrix, or what its kernels work on, cannot be held.
     fn factorize(&mut self, values: &MatrixValues) -> Result<Inertia, LinearError>;
 
     /// Makes `values` the matrix of the next solutions and factorises them only if that is cheaper: not if the present factor

@@ -9,7 +9,8 @@ use crate::stage::Stage;
 /// psi = 0 (Crisfield 1981), else spherical (Riks 1979), psi in mm per unit of the load factor.
 ///
 /// g is linearised consistently (Ramm 1981), so that there is no quadratic equation and no root to choose. The iteration
-/// starts from the last increment at the length of this one, in the first step from the direction of the forces.
+/// starts from the last increment at the length of this one, in the first step from the response to the forces, in their
+/// direction.
 ///
 /// The constraint does not tell loading from unloading: through a sharp turn it may lead back along the
 /// elastic path, every step converged. See [`Dissipation`](super::Dissipation) for one that cannot.
@@ -17,8 +18,10 @@ use crate::stage::Stage;
 pub struct ArcLength {
     psi: f64,
     length: f64,
-    /// Unit direction of the forces.
-    direction: Vec<f64>,
+    /// The reference forces.
+    forces: Vec<f64>,
+    /// Gradient and slope at a zero increment: the direction of the response.
+    first: (Vec<f64>, f64),
 }
 
 impl ArcLength {
@@ -46,10 +49,22 @@ impl PathConstraint for ArcLength {
         let fits = self.psi.is_finite() && self.psi >= 0.0;
         SolverError::setting(("psi of the arc length", self.psi), "[0, inf)", fits)?;
         self.length = length;
-        self.direction = reference_forces(stage)?;
-        let norm = dot(&self.direction, &self.direction).sqrt();
-        for f in &mut self.direction {
-            *f /= norm;
+        self.forces = reference_forces(stage)?;
+        Ok(())
+    }
+
+    fn observe(
+        &mut self,
+        _: &mut Stage<'_>,
+        (du, dlambda): (&[f64], f64),
+        [_, response]: [&[f64]; 2],
+    ) -> Result<(), SolverError> {
+        if self.size(du, dlambda) == 0.0 {
+            let along = dot(&self.forces, response);
+            let sign = if along == 0.0 { 0.0 } else { along.signum() };
+            let scale = sign / self.size(response, 1.0);
+            let gradient = response.iter().map(|q| scale * q).collect();
+            self.first = (gradient, scale * self.psi * self.psi);
         }
         Ok(())
     }
@@ -62,10 +77,10 @@ impl PathConstraint for ArcLength {
     fn linearise(&self, du: &[f64], dlambda: f64, gradient: &mut [f64]) -> Border {
         let size = self.size(du, dlambda);
         if size == 0.0 {
-            gradient.copy_from_slice(&self.direction);
+            gradient.copy_from_slice(&self.first.0);
             return Border {
                 value: -self.length,
-                slope: 0.0,
+                slope: self.first.1,
             };
         }
         for (g, d) in gradient.iter_mut().zip(du) {

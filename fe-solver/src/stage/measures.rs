@@ -32,6 +32,15 @@ pub struct Residual {
     pub worst: usize,
 }
 
+impl Residual {
+    /// Where no force is known.
+    pub(crate) const ENDLESS: Self = Self {
+        relative: f64::INFINITY,
+        largest: f64::INFINITY,
+        worst: 0,
+    };
+}
+
 impl Stage<'_> {
     /// Size of a residual, measured against the forces of the last evaluation.
     pub fn measure(&self, residual: &[f64]) -> Residual {

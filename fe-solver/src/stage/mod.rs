@@ -378,13 +378,17 @@ impl<'m> Stage<'m> {
         let operator = EvaluationContext::new(Operator::Secant);
         self.counters.force_evaluations += 1;
         self.evaluated = None;
-        self.assembler.evaluate(
+        let evaluated = self.assembler.evaluate(
             self.model,
             &rest,
             &mut virgin,
             &operator,
             &mut self.assembled,
-        )?;
+        );
+        if evaluated.is_err() {
+            self.assembled.matrix.lower.clear();
+        }
+        evaluated?;
         Ok(self.absolute_row_sums())
     }
 

@@ -117,7 +117,11 @@ impl Objective {
     pub fn new(p: &ConcreteScalars) -> Result<Self, MaterialError> {
         positive(LAW, "fracture_energy", p.fracture_energy, "N/mm")?;
         Ok(Self {
-            plastic: Isochoric::new(p)?,
+            // Beyond the peak the curve is that of the crushing energy: where that of the Model Code would end is of no account.
+            plastic: Isochoric::new(&ConcreteScalars {
+                eps_c_lim: p.eps_c1,
+                ..*p
+            })?,
             young: p.young_mpa,
             strength: p.fctm_mpa,
             fracture_energy: p.fracture_energy,
