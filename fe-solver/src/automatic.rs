@@ -87,8 +87,9 @@ pub struct Automatic {
 #[derive(Debug)]
 struct Replaced {
     control: Control,
-    /// None where the mode has stayed.
-    mode: Option<Option<NewtonRaphson>>,
+    /// Whether the mode has been replaced too.
+    by_mode: bool,
+    mode: Option<NewtonRaphson>,
 }
 
 impl Automatic {
@@ -304,8 +305,8 @@ impl Driver for Automatic {
         }
         if let Some(before) = self.replaced.take() {
             self.switch(before.control, "the step that had changed it was refused");
-            if let Some(mode) = before.mode {
-                self.mode = mode;
+            if before.by_mode {
+                self.mode = before.mode;
             }
         }
         self.look_back(stage)?;
@@ -328,7 +329,8 @@ impl Driver for Automatic {
                         self.switch(other, "a step of the same length failed under the other");
                         self.replaced = Some(Replaced {
                             control: usual,
-                            mode: kept,
+                            by_mode: kept.is_some(),
+                            mode: kept.flatten(),
                         });
                         (result, serves) = (Ok(attempt), true);
                         break;

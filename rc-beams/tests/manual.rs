@@ -65,6 +65,12 @@ fn ranges_are_those_of_the_reader() {
     assert!(count > 40, "{count} rows");
 }
 
+/// Whether a line of a table is that of a flag, and not of one whose name begins alike.
+fn is_row(line: &str, long: &str) -> bool {
+    let named = |end: char| line.contains(&format!("`--{long}{end}"));
+    named('`') || named(' ')
+}
+
 /// Defaults that the program chooses when a flag is not given are written without a value in its help.
 #[test]
 fn flags_and_their_defaults_are_those_of_the_program() {
@@ -73,7 +79,7 @@ fn flags_and_their_defaults_are_those_of_the_program() {
         let long = flag.get_long().unwrap();
         let row = MANUAL
             .lines()
-            .find(|line| line.starts_with("| `-") && line.contains(&format!("`--{long}")))
+            .find(|line| line.starts_with("| `-") && is_row(line, long))
             .unwrap_or_else(|| panic!("the manual lacks --{long}"));
         for default in flag.get_default_values() {
             let default = format!("| `{}` |", default.to_str().unwrap());

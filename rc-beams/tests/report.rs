@@ -23,7 +23,7 @@ fn store(folder: &Path, name: &str) {
         "integration": "full", "mesh": "60x4x1", "steps": 2, "peak_load_kn": 90.0,
         "deflection_at_peak_mm": 2.0, "post_peak_drop": 0.2, "mode": "flexure", "mode_evidence": "bars yield",
         "trust": "limited", "trust_reason": "a jump", "stop_reason": "the load fell",
-        "test_load_kn": 100.0, "wall_s": {{"total": 1.0}}}}"#
+        "test_load_kn": 100.0, "ratio_model_to_test": 0.9, "wall_s": {{"total": 1.0}}}}"#
     );
     fs::write(folder.join("summary.json"), summary).unwrap();
     let history = "step,deflection_mm,load_kn\n0,0,0\n1,2,90\n2,3,70\n";

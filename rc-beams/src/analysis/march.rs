@@ -51,7 +51,7 @@ pub fn analyse(
         let mut state = StateStore::new(beam.model.elements());
         let start = march
             .weight(beam, &mut state)
-            .map_err(AnalysisError::SelfWeight)?;
+            .map_err(AnalysisError::under_its_own_weight)?;
         let (mut outcome, _) = march.load(beam, &mut state, start, stepping, Until::Failure)?;
         outcome.work = march.work;
         return Ok(outcome);
@@ -60,7 +60,7 @@ pub fn analyse(
     let mut state = StateStore::new(bare.model.elements());
     let start = march
         .weight(&bare, &mut state)
-        .map_err(AnalysisError::SelfWeight)?;
+        .map_err(AnalysisError::under_its_own_weight)?;
     let wanted_kn = staging.staged.load_kn.get();
     let until = Until::Load(wanted_kn);
     let (mut first, mut imposed) = march.load(&bare, &mut state, start, stepping, until)?;

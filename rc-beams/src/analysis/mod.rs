@@ -231,6 +231,21 @@ pub enum AnalysisError {
     Build(#[from] BuildError),
 }
 
+impl AnalysisError {
+    /// What stops the stage of self weight: the beam, unless it is a table that cannot be written or a journal of another run.
+    fn under_its_own_weight(error: SolverError) -> Self {
+        match error {
+            SolverError::Output(_) | SolverError::Journal { .. } => Self::Solver(error),
+            other => Self::SelfWeight(other),
+        }
+    }
+
+    /// Whether results could not be written.
+    pub(crate) const fn is_output(&self) -> bool {
+        matches!(self, Self::Solver(SolverError::Output(_)))
+    }
+}
+
 /// What a run leaves behind.
 #[derive(Debug)]
 pub struct Outcome {

@@ -91,19 +91,20 @@ const STRENGTHENED: usize = 6;
 /// Height of the tallest of them, where edges of sheets make others low, in heights of equal ones.
 const TALLEST: f64 = 1.25;
 
-/// Mesh of a specimen that none is asked for: 60 x 4, with sheets 6 over the height and as many along the beam as their
-/// edges need; uniform across the width, unless sheets cover a part of it or another preset than the physical one asks
+/// Mesh of a specimen that none is asked for: 60 x 4, with sheets 6 over the height, and as many along the beam as plates and
+/// edges of sheets need; uniform across the width, unless sheets cover a part of it or another preset than the physical one asks
 /// for hexahedra as in its source.
 pub fn default_mesh(specimen: &Specimen, preset: Preset) -> MeshSize {
     let [nx, ny] = BARE;
     let across = |least: usize| (least > 1 || preset != Preset::Physical).then_some(least);
+    let patches = patches(specimen);
+    let edges = sheet_edges(specimen);
+    let along = |n| axis_lines(specimen.beam.length_mm.get(), &patches, &edges[0], n).is_some();
+    let nx = least(nx, along).unwrap_or(nx);
     if specimen.sheets.is_none() {
         let nz = across(1);
         return MeshSize { nx, ny, nz };
     }
-    let patches = patches(specimen);
-    let edges = sheet_edges(specimen);
-    let along = |n| axis_lines(specimen.beam.length_mm.get(), &patches, &edges[0], n).is_some();
     let height = specimen.beam.height_mm.get();
     let tallest = TALLEST * height / STRENGTHENED as f64;
     let up = |n| {
@@ -112,7 +113,7 @@ pub fn default_mesh(specimen: &Specimen, preset: Preset) -> MeshSize {
     };
     let wide = |n| axis_lines(specimen.half_width_mm(), &[], &edges[2], n).is_some();
     MeshSize {
-        nx: least(nx, along).unwrap_or(nx),
+        nx,
         ny: least(STRENGTHENED, up).unwrap_or(STRENGTHENED),
         nz: across(least(1, wide).unwrap_or(1)),
     }

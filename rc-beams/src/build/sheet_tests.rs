@@ -188,14 +188,44 @@ fn the_bond_of_strips_counts_with_their_width_over_their_spacing() {
         let specimen = specimen(name);
         let height = specimen.beam.height_mm.get();
         let sheets = specimen.sheets.as_ref().unwrap();
-        assert!((sheets.width_ratio(height) - ratio).abs() < 1e-12, "{name}");
+        let [wrap] = &sheets.wraps[..] else {
+            panic!("{name} has one wrap");
+        };
+        assert!((wrap.width_ratio(height) - ratio).abs() < 1e-12, "{name}");
         let energy = |preset| {
             let settings = ModelSettings::new(preset, &specimen);
-            bond(&specimen, sheets, &settings).unwrap().energy()
+            bond(&specimen, wrap, &settings).unwrap().energy()
         };
         // The energy goes with the square of the width factor.
         let more = energy(Preset::Physical) / energy(Preset::Reference);
         let expected = (2.25 - ratio) / (1.25 + ratio) * 2.25 / 1.25;
         assert!((more - expected).abs() < 1e-9, "{name} {more} {expected}");
     }
+}
+
+/// Narrow anchors elsewhere on the beam make no strips of a continuous sheet: each wrap has the bond of its own layout.
+#[test]
+fn the_bond_of_a_wrap_is_that_of_its_own_layout() {
+    let [mut changed, strips] = ["A-SO3-4", "A-SO3-2"].map(specimen);
+    let anchors = strips.sheets.unwrap().wraps.remove(0);
+    let wraps = &mut changed.sheets.as_mut().unwrap().wraps;
+    wraps[0].faces.retain(|cover| cover.face == Face::Soffit);
+    wraps.push(anchors);
+    wraps[1].faces.retain(|cover| cover.face == Face::Side);
+    let specimen = changed;
+    let record = beam(&specimen, Bond::Cohesive).sheets.unwrap();
+    let energy = |face| {
+        let of_face = record.cells.iter().filter(move |c| c.face == face);
+        of_face
+            .map(|c| c.bond.envelope().energy())
+            .collect::<Vec<_>>()
+    };
+    let (side, soffit) = (energy(Face::Side), energy(Face::Soffit));
+    assert!(!side.is_empty() && !soffit.is_empty());
+    let alone = beam(&self::specimen("A-SO3-4"), Bond::Cohesive)
+        .sheets
+        .unwrap();
+    let sheet = alone.cells[0].bond.envelope().energy();
+    assert!(soffit.iter().all(|g| *g == sheet), "{soffit:?} {sheet}");
+    assert!(side.iter().all(|g| *g > 1.9 * sheet), "{side:?} {sheet}");
 }

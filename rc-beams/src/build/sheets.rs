@@ -18,7 +18,7 @@ use fe_materials::{Lamina, LaminaParameters, Laminate, Ply};
 use super::laws::SolidLaw;
 use super::{BuildError, ModelSettings};
 use crate::options::{Bond, SheetShear, SoffitFibre, StripBond};
-use crate::spec::{Adhesive, Cover, Face, SheetPly, Sheets, Specimen, Stretch};
+use crate::spec::{Adhesive, Cover, Face, SheetPly, Sheets, Specimen, Stretch, Wrap};
 
 /// Axis 1 of the sheets, from which the fibres are measured: the beam axis.
 const AXIS: [f64; 3] = [1.0, 0.0, 0.0];
@@ -49,6 +49,10 @@ pub struct SheetCell {
     pub face: Face,
     /// Plies.
     pub laminate: Arc<Laminate>,
+    /// Curve of the bond.
+    pub curve: Bilinear,
+    /// Law of the bond, with that curve.
+    pub bond: Arc<SlipDamage>,
     /// Element of the sheet.
     pub membrane: usize,
     /// Element of the interface, unless the bond is perfect.
@@ -62,10 +66,6 @@ pub struct SheetRecord {
     pub zones: Vec<Zone>,
     /// Elements of sheet.
     pub cells: Vec<SheetCell>,
-    /// Curve of the bond.
-    pub curve: Bilinear,
-    /// Law of the bond, with that curve.
-    pub bond: SlipDamage,
     /// Sheet elements.
     pub membranes: Range<usize>,
     /// Adhesive elements.
@@ -114,8 +114,6 @@ pub(super) fn lay(
     settings: &ModelSettings,
     (mesh, blocks): (&mut Mesh, &[&str]),
 ) -> Result<(SheetRecord, Vec<Box<dyn Element>>), BuildError> {
-    let curve = bond(specimen, sheets, settings)?;
-    let bond = SlipDamage::new(curve, BondSettings::default())?;
     let glue: SolidLaw = Arc::new(glue(&sheets.adhesive)?);
     let outer = skin::outer_faces(mesh, blocks);
     let mut parts = Parts::default();
@@ -126,11 +124,10 @@ pub(super) fn lay(
         adhesive: 0..0,
         interfaces: 0..0,
         below: BTreeMap::new(),
-        curve,
-        bond: bond.clone(),
     };
-    let law: Arc<SlipDamage> = Arc::new(bond);
     for wrap in &sheets.wraps {
+        let curve = bond(specimen, wrap, settings)?;
+        let law = Arc::new(SlipDamage::new(curve, BondSettings::default())?);
         let laminates = wrap
             .faces
             .iter()
@@ -186,6 +183,8 @@ pub(super) fn lay(
                     zone,
                     face: cover.face,
                     laminate: laminate.clone(),
+                    curve,
+                    bond: law.clone(),
                     membrane: parts.membranes.len(),
                     interface: parts.interfaces.len().checked_sub(1),
                 });
@@ -283,18 +282,18 @@ impl Parts {
 }
 
 /// Bond after Lu, Teng, Ye and Jiang (2005), bilinear. The reported strength is read as the characteristic one,
-/// fcm = reported + 8 MPa. The width ratio b_f/b_c is 1 under a sheet and, under strips, their width over their spacing, as
-/// Chen and Teng (2003) do for strips; the reference takes 1 there too, and so arrives at its table of bonds.
+/// fcm = reported + 8 MPa. The width ratio b_f/b_c is that of the wrap: 1 under a sheet, whatever part of the width it covers, and, under
+/// strips, their width over their spacing, as Chen and Teng (2003) do for strips; the reference takes 1 there too, and so arrives at its table of bonds.
 pub(super) fn bond(
     specimen: &Specimen,
-    sheets: &Sheets,
+    wrap: &Wrap,
     settings: &ModelSettings,
 ) -> Result<Bilinear, BuildError> {
     let strength = specimen.concrete.reported_strength_mpa.get();
     let fcm = ConcreteScalars::from_characteristic(strength)?.fcm_mpa;
     let ratio = match settings.strip_bond {
         StripBond::Sheet => 1.0,
-        StripBond::Strip => sheets.width_ratio(specimen.beam.height_mm.get()),
+        StripBond::Strip => wrap.width_ratio(specimen.beam.height_mm.get()),
     };
     Ok(LuJoint::from_cylinder_strength(fcm, ratio).bilinear()?)
 }

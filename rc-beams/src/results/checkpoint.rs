@@ -40,7 +40,7 @@ struct Header {
 #[diagnostic(
     code(rc_beams::resume),
     help(
-        "nothing was changed; give the options of the earlier run, or start the beam anew without --resume"
+        "no table was changed; give the options of the earlier run, or start the beam anew without --resume"
     )
 )]
 pub struct CheckpointError {

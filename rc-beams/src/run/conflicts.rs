@@ -20,7 +20,17 @@ pub(super) fn conflict(
     without_effect(options, settings)
         .or_else(|| too_few_points(settings))
         .or_else(|| too_fine_a_band(options, settings))
+        .or_else(|| too_large(settings, specimen))
         .or_else(|| no_surface(settings, specimen))
+}
+
+/// The mesh that edges of sheets and plates need has the limits of one that is asked for.
+fn too_large(settings: &ModelSettings, specimen: &Specimen) -> Option<String> {
+    let (name, mesh) = (&specimen.name, settings.mesh);
+    let refused = mesh.check().err()?;
+    Some(format!(
+        "the mesh that edges of plates and sheets of {name} need, {mesh}, has {refused}: let edges lie on one another"
+    ))
 }
 
 /// A surface of onset that is not convex, by options: with the defaults it is, or the specimen is refused.

@@ -59,6 +59,7 @@ impl RunError {
             } => Exit::Usage,
             Self::Build { .. } => Exit::BadInput,
             Self::Output(_) | Self::Resume(_) => Exit::File,
+            Self::Solver { reason, .. } if reason.is_output() => Exit::File,
             Self::Threads(_) | Self::Solver { .. } | Self::Model(_) => Exit::StoppedEarly,
         }
     }

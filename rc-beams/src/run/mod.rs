@@ -35,7 +35,7 @@ use crate::results::mode::Diagnosis;
 use crate::results::mode::strengthened::BOND_GOVERNS;
 use crate::results::progress::Board;
 use crate::results::resources::Resources;
-use crate::results::sheets::{MapState, SheetDrop};
+use crate::results::sheets::{MapState, SheetDrop, end_of_drop};
 use crate::results::summary::{Figures, Summary, WallTime, Work};
 use crate::spec::Specimen;
 use caveats::{broken, pulls, read_elsewhere, unbalanced};
@@ -219,7 +219,9 @@ fn run(
         wall.add(times);
     }
     let capacity = Capacity::of(&outcome.path);
-    let reached = capacity.filter(Capacity::is_reached);
+    // A beam that is to be strengthened under load and fails before is none that was tested.
+    let strengthened = specimen.staged.is_none() || !outcome.before.is_empty();
+    let reached = capacity.filter(|c| strengthened && c.is_reached());
     let mut missing = Vec::new();
     let numerical_error = match reached.and_then(|c| outcome.path.get(c.peak)) {
         Some(peak) if options.band => {
@@ -229,7 +231,11 @@ fn run(
         }
         _ => None,
     };
-    let tension = |capacity: &Capacity| watch.largest_tension(outcome.path.len(), capacity.peak);
+    let tension = |capacity: &Capacity| {
+        // Also before the sheets were bonded.
+        let before = outcome.before.len();
+        watch.largest_tension(before + outcome.path.len(), before + capacity.peak)
+    };
     let at_peak = outcome.peak.as_ref().unwrap_or(&outcome.last);
     let peak = evidence::snapshot(beam, at_peak)?;
     let figures = capacity.and_then(|capacity| {
@@ -374,13 +380,23 @@ fn diagnosis(
 ) -> Diagnosis {
     let rows = watch.rows(outcome.path.len());
     let drop = SheetDrop::of(watch.sheet_layout(), rows, &outcome.path, capacity);
-    match drop {
+    let mut diagnosis = match drop {
         Some(sheets) if !watch.sheet_layout().zones.is_empty() => {
             let states = (peak, last);
             Diagnosis::strengthened(layout, states, capacity, &sheets, ratio)
         }
         _ => Diagnosis::of(layout, peak, last, capacity),
+    };
+    let end = end_of_drop(&outcome.path, capacity);
+    let end = end.map_or(outcome.path.last(), |i| outcome.path.get(i));
+    if let Some(end) = end.filter(|end| end.flagged) {
+        let told = format!(
+            "; at the end of the drop the residual is {:.1e}: the beam moves there, no equilibrium was found",
+            end.residual
+        );
+        diagnosis.mode_evidence += &told;
     }
+    diagnosis
 }
 
 /// Why the path ended, and what that means for the exit code.

@@ -2,9 +2,8 @@
 //! have in the beam, against its closed form.
 
 use std::io;
-use std::sync::Arc;
 
-use fe_contact::{Interface16, InterfaceRule, PullOut, SlipDamage};
+use fe_contact::{Interface16, InterfaceRule, PullOut};
 use fe_core::dof::Dof;
 use fe_core::element::Element;
 use fe_core::grid::GridBuilder;
@@ -61,9 +60,9 @@ pub(super) fn error(model: &Model, sheets: &SheetRecord) -> Result<Option<BondEr
     let size = size.fold(0.0, f64::max);
     let membrane = first.laminate.stiffness_along(ply.angle_deg) * first.laminate.thickness_mm();
     let closed =
-        PullOut::new(sheets.curve, membrane).map_err(|e| solver(BuildError::from(e).into()))?;
+        PullOut::new(first.curve, membrane).map_err(|e| solver(BuildError::from(e).into()))?;
     let exact = closed.ultimate();
-    let found = strip(size, &sheets.bond, first).map_err(solver)?;
+    let found = strip(size, first).map_err(solver)?;
     Ok(Some(BondError {
         element_mm: size,
         force_n_per_mm: found,
@@ -81,11 +80,7 @@ fn solver(error: AnalysisError) -> RunError {
 }
 
 /// Largest force per width (N/mm) of a strip of elements `size` (mm) long along the fibres of the first ply.
-fn strip(
-    size: f64,
-    bond: &SlipDamage,
-    cell: &crate::build::SheetCell,
-) -> Result<f64, AnalysisError> {
+fn strip(size: f64, cell: &crate::build::SheetCell) -> Result<f64, AnalysisError> {
     let count = (LENGTH_MM / size).ceil().max(4.0);
     let x: Vec<f64> = (0..=count as usize).map(|i| i as f64 * size).collect();
     let mut grid = GridBuilder::new();
@@ -98,7 +93,7 @@ fn strip(
     // The fibres lie along x: axis 1 is turned back by their angle.
     let (sin, cos) = angle.to_radians().sin_cos();
     let axis = [cos, -sin, 0.0];
-    let law = Arc::new(bond.clone());
+    let law = &cell.bond;
     let mut elements: Vec<Box<dyn Element>> = Vec::new();
     let mut held: Vec<NodeId> = Vec::new();
     let mut sheet: Vec<NodeId> = Vec::new();
@@ -139,7 +134,7 @@ fn strip(
     let mut state = StateStore::new(model.elements());
     let zero = vec![0.0; model.dofs().len()];
     let mut stage = Stage::new(&model, conditions, &mut state, zero)?;
-    let until = END * bond.envelope().final_slip();
+    let until = END * law.envelope().final_slip();
     let mut largest = Largest(0.0);
     let control = StepControl::new(until / STEPS, until);
     control.run(&mut stage, &mut SecantAnderson::default(), &mut largest)?;

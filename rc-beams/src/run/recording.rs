@@ -146,7 +146,7 @@ impl<'a> Recording<'a> {
         };
         let model = stage.model();
         // A beam that is strengthened under load has no strain of its sheets before.
-        let complete = model.dofs().len() == self.beam.model.dofs().len();
+        let complete = model.elements().len() == self.beam.model.elements().len();
         let strains = self
             .gauges
             .iter()

@@ -1,6 +1,7 @@
 //! Where a run begins: at the start, after the last step of an interrupted one, or not at all.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
 use serde_json::Value;
@@ -29,8 +30,13 @@ fn earlier(folder: &Path, input_hash: &str) -> Result<Option<Beginning>, RunErro
         return Ok(Some(Beginning::From(folder, Box::new(checkpoint))));
     }
     let path = folder.join("summary.json");
-    let Ok(text) = fs::read(&path) else {
-        return Ok(None);
+    let text = match fs::read(&path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(error) => {
+            let reason = format!("it cannot be read: {error}");
+            return Err(CheckpointError { path, reason }.into());
+        }
     };
     let summary: Option<Value> = serde_json::from_slice(&text).ok();
     if let Some(summary) = summary.filter(|s| s["input_hash"] == input_hash) {

@@ -41,8 +41,6 @@ pub(super) fn state(
     (model, u, state): (&Model, &[f64], &StateStore),
 ) -> Result<SheetState, ModelError> {
     let mut seen = SheetState::default();
-    let curve = sheets.bond.envelope();
-    let (s0_mm, sf_mm) = (curve.peak_slip(), curve.final_slip());
     for cell in &sheets.cells {
         let face = match cell.face {
             spec::Face::Side => Face::Side,
@@ -66,6 +64,8 @@ pub(super) fn state(
         let Some(e) = cell.interface else {
             continue;
         };
+        let curve = cell.bond.envelope();
+        let (s0_mm, sf_mm) = (curve.peak_slip(), curve.final_slip());
         model.sample(e, u, state, &mut |s| {
             seen.interface.push(InterfacePoint {
                 position: s.position,

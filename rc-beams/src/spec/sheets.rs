@@ -160,15 +160,6 @@ pub enum HoldOrUnload {
     Unload,
 }
 
-impl Sheets {
-    /// Width of the strips over their spacing, of the layout where it is least; 1 where no layout has strips:
-    /// stretches, two or more, that are narrower than `height_mm`, that of the section.
-    pub fn width_ratio(&self, height_mm: f64) -> f64 {
-        let ratios = self.wraps.iter().filter_map(|w| w.width_ratio(height_mm));
-        ratios.fold(1.0, f64::min)
-    }
-}
-
 impl Wrap {
     /// Names of its sheets, one per stretch: that of the wrap, numbered from 1 where there are several.
     pub fn sheet_names(&self) -> impl Iterator<Item = String> {
@@ -179,8 +170,9 @@ impl Wrap {
         })
     }
 
-    /// Width of the first strip over the least distance of the centres of two neighbours.
-    fn width_ratio(&self, height_mm: f64) -> Option<f64> {
+    /// Width of the strips over their spacing: of the first strip over the least distance of the centres of two neighbours; 1 where
+    /// there are none: stretches, two or more, that are narrower than `height_mm`, that of the section.
+    pub fn width_ratio(&self, height_mm: f64) -> f64 {
         let strips = self
             .stretches
             .iter()
@@ -191,9 +183,10 @@ impl Wrap {
         let spacing = centres
             .windows(2)
             .map(|w| w[1] - w[0])
-            .min_by(f64::total_cmp)?;
-        let width = strips.map(|(from, to)| to - from).next()?;
-        Some((width / spacing).min(1.0))
+            .min_by(f64::total_cmp);
+        let width = strips.map(|(from, to)| to - from).next();
+        let ratio = width.zip(spacing).map(|(width, spacing)| width / spacing);
+        ratio.map_or(1.0, |ratio| ratio.min(1.0))
     }
 }
 

@@ -74,6 +74,13 @@ const ON_STRIPS: &[Case] = &[
             "sheets.wraps[0].faces[0].from_mm: edge of the sheet at 2 mm, 2.000 mm from the edge of the beam at 0 mm",
         ],
     ),
+    // A gauge from one strip to another.
+    (
+        "x_mm: 2092.5,\n                y_mm: 152.5,\n                z_mm: 75,\n                angle_deg: 90,\n                gauge_length_mm: 30,",
+        "x_mm: 2092.5,\n                y_mm: 152.5,\n                z_mm: 75,\n                angle_deg: 0,\n                gauge_length_mm: 200,",
+        "200",
+        &["a gauge of 200 mm ends at x = 1992.5 mm, y = 152.5 mm, off its sheet"],
+    ),
     // A gauge between strips; two of one name.
     (
         "x_mm: 2217.5",

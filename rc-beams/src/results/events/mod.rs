@@ -111,6 +111,8 @@ impl EventKind {
         match self {
             Self::FlexuralCrack | Self::DiagonalCrack => value >= VISIBLE_WIDTH_MM,
             Self::Crushing => value > 0.0,
+            // Rounding keeps a bar that yields without hardening just below its yield stress.
+            Self::StirrupYield | Self::BarYield => value >= 1.0 - 1e-9,
             _ => value >= 1.0,
         }
     }

@@ -7,6 +7,7 @@ use std::str::FromStr;
 use std::{fs, io};
 
 use csv::{Reader, StringRecord};
+use fe_solver::capacity::DROP_FALL;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
@@ -53,6 +54,8 @@ pub(super) struct StoredSummary {
     pub trust_reason: String,
     pub stop_reason: String,
     pub test_load_kn: Option<f64>,
+    pub ratio_model_to_test: Option<f64>,
+    pub post_peak_drop: f64,
     pub counterfactual_ratio: Option<f64>,
     pub wall_s: StoredWall,
 }
@@ -66,13 +69,19 @@ pub(super) struct StoredWall {
 impl StoredSummary {
     /// Whether the beam has failed: otherwise, as where the run was stopped, its largest load is a lower bound of the peak.
     pub(super) fn failed(&self) -> bool {
+        let rupture = self.mode == FailureMode::SheetRupture.to_string();
         self.mode != FailureMode::None.to_string()
+            && match self.test_load_kn {
+                // The run tells by a ratio that there is something to compare.
+                Some(_) => self.ratio_model_to_test.is_some(),
+                // A sheet may rupture while the load of the model, in which none tears, still rises.
+                None => !rupture || self.post_peak_drop >= DROP_FALL,
+            }
     }
 
     /// Peak over the load of the test; none where there is no peak.
     pub(super) fn ratio(&self) -> Option<f64> {
-        let test = self.test_load_kn.filter(|t| *t > 0.0 && self.failed())?;
-        Some(self.peak_load_kn / test)
+        self.ratio_model_to_test.filter(|_| self.failed())
     }
 }
 

@@ -21,6 +21,7 @@ fn store(root: &Path, name: &str, peak: f64, test: Option<f64>) {
         "peak_load_kn": peak, "deflection_at_peak_mm": 2.0, "mode": "debonding",
         "mode_evidence": "load falls by 20.0 %", "trust": "high",
         "trust_reason": "every step meets it", "stop_reason": "the load fell",
+        "post_peak_drop": 0.2, "ratio_model_to_test": test.map(|t: f64| peak / t),
         "test_load_kn": test, "wall_s": {"total": 12.34, "solve": 1.0},
     });
     fs::write(folder.join("summary.json"), summary.to_string()).unwrap();
@@ -51,6 +52,20 @@ fn results() -> TempDir {
 
 fn read(root: &TempDir, file: &str) -> String {
     fs::read_to_string(root.path().join(file)).unwrap()
+}
+
+/// Neither a sheet that ruptures while the load rises nor a staged beam that never got its sheets has a peak to compare: the run says
+/// so by a ratio that is missing.
+#[test]
+fn a_peak_without_a_ratio_is_a_lower_bound() {
+    let root = results();
+    let summary = root.path().join("A-SO3-2/summary.json");
+    let text = fs::read_to_string(&summary).unwrap();
+    let mut stored: serde_json::Value = serde_json::from_str(&text).unwrap();
+    stored["ratio_model_to_test"] = serde_json::Value::Null;
+    fs::write(&summary, stored.to_string()).unwrap();
+    assert_eq!(write(root.path()).unwrap().accuracy.unwrap().beams, 1);
+    assert!(read(&root, "report.md").contains("| A-SO3-2 | > 220.0 |"));
 }
 
 /// A run that was stopped on its way up has no peak: it is shown as what it is and not compared.

@@ -34,9 +34,9 @@ pub struct SpanDrop {
 }
 
 impl SpanDrop {
-    /// Whether a sheet on the side is bonded to it by an interface, or carries tension at the peak.
+    /// Whether a sheet on the side carries tension across a diagonal crack at the peak.
     pub fn is_covered(&self) -> bool {
-        self.debonded.is_some() || self.force_kn[0] > 0.0
+        self.force_kn[0] > 0.0
     }
 
     /// Loss of force relative to that at the peak, negative where it grows; 0 where the sheets are idle at the peak.

@@ -1,4 +1,5 @@
-//! Edges of sheets lie on other lines of the mesh, or clear of them: elements between the two would be as thin as the distance.
+//! Edges of plates and sheets lie on other lines of the mesh, or clear of them: elements between the two would be as thin as the
+//! distance.
 
 use super::{Checks, TOLERANCE};
 use crate::spec::sheets::{Face, Wrap};
@@ -27,14 +28,16 @@ const fn line(at: f64, what: &'static str) -> Line {
     }
 }
 
+const THIN: &str =
+    "elements between the two would be as thin as that: move one onto the other, or apart";
 const END: &str = "end of the beam";
 const BEAM: &str = "edge of the beam";
 const MIDDLE: &str = "middle of the width";
 const SHEET: &str = "edge of a sheet";
 
 impl Checks<'_> {
-    /// Of sheets and plates that are known to be as they may.
-    pub(super) fn sheet_edges(&mut self, wraps: &[Wrap]) {
+    /// Lines of the mesh along the beam that plates and ends of the beam make.
+    fn lines_along(&self) -> Vec<Line> {
         let mut along: Vec<Line> = [0.0, self.length()].map(|x| line(x, END)).into();
         for (plate, (x, length)) in self.specimen.plates().enumerate() {
             let ends = [x - 0.5 * length, x + 0.5 * length].map(|x| line(x, "edge of a plate"));
@@ -44,6 +47,46 @@ impl Checks<'_> {
                 ..line
             }));
         }
+        along
+    }
+
+    /// Of plates that are known to lie on the beam, apart from each other. Each is told once.
+    pub(super) fn plate_edges(&mut self) {
+        let lines = self.lines_along();
+        let supports = self.specimen.supports.len();
+        let mut told = Vec::new();
+        for (i, one) in lines.iter().enumerate() {
+            for other in &lines[..i] {
+                let off = (one.at - other.at).abs();
+                let clear = off <= TOLERANCE || off >= LEAST - TOLERANCE;
+                let (Some(plate), false) = (one.plate, clear) else {
+                    continue;
+                };
+                let known = |p: &Option<usize>| p.is_some_and(|p| told.contains(&p));
+                if one.plate == other.plate || known(&one.plate) || known(&other.plate) {
+                    continue;
+                }
+                let path = match plate.checked_sub(supports) {
+                    None => format!("supports[{plate}].x_mm"),
+                    Some(load) => format!("loads[{load}].x_mm"),
+                };
+                let (at, what, line, beside) = (one.at, one.what, other.at, other.what);
+                self.report(
+                    path,
+                    format!(
+                        "{what} at {at} mm, {off:.3} mm from the {beside} at {line} mm; allowed: on it, or {LEAST} mm from it \
+                         or more"
+                    ),
+                    THIN,
+                );
+                told.extend([Some(plate), other.plate].into_iter().flatten());
+            }
+        }
+    }
+
+    /// Of sheets and plates that are known to be as they may.
+    pub(super) fn sheet_edges(&mut self, wraps: &[Wrap]) {
+        let mut along = self.lines_along();
         let mut up: Vec<Line> = [0.0, self.height()].map(|y| line(y, BEAM)).into();
         let mut across = vec![line(0.0, MIDDLE), line(self.half_width(), BEAM)];
         for wrap in wraps {
@@ -100,7 +143,7 @@ impl Checks<'_> {
                     "edge of the sheet at {at} mm, {off:.3} mm from the {what} at {line} mm; allowed: on it, or {LEAST} mm from \
                      it or more"
                 ),
-                "elements between the two would be as thin as that: move one onto the other, or apart",
+                THIN,
             );
             lines.retain(|line| plate.is_none() || line.plate != plate);
         }

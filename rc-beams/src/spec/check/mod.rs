@@ -40,7 +40,7 @@ pub fn check(specimen: &Specimen) -> Vec<Finding> {
     checks.name();
     checks.concrete();
     checks.reinforcement();
-    let supported = checks.supports();
+    let supported = checks.supports() && checks.passes(Checks::plate_edges);
     checks.sheets(supported);
     checks.findings
 }

@@ -229,11 +229,8 @@ impl Checks<'_> {
         let side = "gauges are on the side face, half of the width from its middle";
         self.within(format!("{path}.z_mm"), ("gauge", z), half..=half, side);
         let Some(patches) = patches else { return };
-        let on_sheet = |x, y| {
-            let mut sides = patches.iter().filter(|p| p.cover.face == Face::Side);
-            sides.any(|p| p.holds(x, y))
-        };
-        if !on_sheet(x, y) {
+        let mut sides = patches.iter().filter(|p| p.cover.face == Face::Side);
+        let Some(sheet) = sides.find(|p| p.holds(x, y)) else {
             self.report(
                 format!("{path}.x_mm"),
                 format!(
@@ -242,13 +239,13 @@ impl Checks<'_> {
                 "move the gauge onto a sheet, for instance to the middle of the nearest strip",
             );
             return;
-        }
+        };
         let length = gauge.gauge_length_mm.get();
         for (x, y) in gauge.ends() {
-            if !on_sheet(x, y) {
+            if !sheet.holds(x, y) {
                 self.report(
                     format!("{path}.gauge_length_mm"),
-                    format!("a gauge of {length} mm ends at x = {x:.1} mm, y = {y:.1} mm, off the sheets; allowed: ends on sheets"),
+                    format!("a gauge of {length} mm ends at x = {x:.1} mm, y = {y:.1} mm, off its sheet; allowed: ends on the sheet"),
                     "shorten the gauge, turn it along the sheet, or move it",
                 );
                 return;

@@ -3,6 +3,9 @@
 use super::{Checks, TOLERANCE};
 use crate::spec::specimen::{Held, LoadMeasure};
 
+/// Share of a span up to which spans, and places of loads in them, are alike; assumed.
+const ALIKE: f64 = 0.01;
+
 /// A plate on or under the beam.
 struct Contact {
     path: String,
@@ -231,12 +234,10 @@ impl Checks<'_> {
         let LoadMeasure::InnerShear { end_support } = self.specimen.measuring.load else {
             return;
         };
-        if supports < 3 {
+        if supports != 3 {
             self.report(
                 "measuring.load",
-                format!(
-                    "shear at an inner support of {supports} supports; allowed: 3 or more supports"
-                ),
+                format!("shear at an inner support of {supports} supports; allowed: 3 supports"),
                 "measure TotalReactions",
             );
             return;
@@ -254,8 +255,8 @@ impl Checks<'_> {
         self.equal_spans();
     }
 
-    /// Shear at an inner support is read off equal shares of the load: every span carries as many loads, between supports
-    /// that hold it up.
+    /// Shear at an inner support is read off equal shares of the load: of two spans between supports that hold the beam up, loaded
+    /// alike.
     fn equal_spans(&mut self) {
         let specimen = self.specimen;
         for (i, support) in specimen.supports.iter().enumerate() {
@@ -267,16 +268,39 @@ impl Checks<'_> {
                 );
             }
         }
-        let ends = specimen.supports.windows(2).map(|pair| {
-            let [from, to] = [0, 1].map(|k| pair[k].x_mm.get());
-            let loads = specimen.loads.iter().map(|load| load.x_mm.get());
-            loads.filter(|x| from < *x && *x < to).count()
-        });
-        let counts: Vec<usize> = ends.collect();
-        if counts.windows(2).any(|pair| pair[0] != pair[1]) {
+        let places: Vec<f64> = specimen.supports.iter().map(|s| s.x_mm.get()).collect();
+        let [left, inner, right] = places[..] else {
+            return;
+        };
+        let from_inner = |side: f64| {
+            let loads = specimen
+                .loads
+                .iter()
+                .map(|load| side * (load.x_mm.get() - inner));
+            let mut found: Vec<f64> = loads.filter(|way| *way > 0.0).collect();
+            found.sort_by(f64::total_cmp);
+            found
+        };
+        let spans = [inner - left, right - inner];
+        let loads = [from_inner(-1.0), from_inner(1.0)];
+        let alike = |a: f64, b: f64| (a - b).abs() <= ALIKE * spans[0];
+        let pairs = loads[0].iter().zip(&loads[1]);
+        let mirrored =
+            loads[0].len() == loads[1].len() && pairs.clone().all(|(a, b)| alike(*a, *b));
+        let within = loads[0].iter().all(|way| *way < spans[0])
+            && loads[1].iter().all(|way| *way < spans[1]);
+        if !(alike(spans[0], spans[1]) && mirrored && within) {
             self.report(
                 "measuring.load",
-                format!("shear at an inner support of spans with {counts:?} loads; allowed: as many loads in every span"),
+                format!(
+                    "shear at an inner support of spans of {} and {} mm with loads {:?} and {:?} mm from it; allowed: equal spans \
+                     with loads at equal places within them, to {} %",
+                    spans[0],
+                    spans[1],
+                    loads[0],
+                    loads[1],
+                    100.0 * ALIKE
+                ),
                 "measure TotalReactions",
             );
         }
