@@ -65,6 +65,8 @@ impl DescentSettings {
         let setting = SolverError::setting;
         SolverError::positive("iterations of the descent", self.max_iterations as f64)?;
         SolverError::positive("patience of the descent", self.patience as f64)?;
+        let served = self.rebuild_after as f64;
+        SolverError::positive("iterations of the descent with one factor", served)?;
         let fits = over.is_finite() && over >= 0.0;
         setting(("overshoot of the descent", over), "[0, inf)", fits)?;
         let fits = least > 0.0 && least <= 1.0;
@@ -265,4 +267,55 @@ impl Descent {
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    //! Protects a descent that is resumed from what others have evaluated in between.
+    use std::sync::Arc;
+
+    use fe_core::dof::Dof;
+    use fe_core::grid::GridBuilder;
+    use fe_core::model::{Conditions, Model};
+    use fe_core::state::StateStore;
+    use fe_elements::{BandWidth, Hex20, HexRule};
+    use fe_materials::Elastic;
+
+    use super::*;
+
+    /// The residual (N) is measured against the forces where the descent stands, not against those of the last evaluation, which
+    /// may be a thousand times as large: an iterate far from equilibrium would pass for its end.
+    #[test]
+    fn the_residual_is_that_of_where_it_stands() {
+        let mut grid = GridBuilder::new();
+        grid.add_box("cube", &[0.0, 2.0], &[0.0, 2.0], &[0.0, 2.0]);
+        let mesh = grid.finish().unwrap();
+        let nodes: [usize; 20] = std::array::from_fn(|a| a);
+        let coords = nodes.map(|n| mesh.nodes()[n]);
+        let law = Arc::new(Elastic::new(30e3, 0.2).unwrap());
+        let cube = Hex20::new(nodes, &coords, HexRule::Full, law, BandWidth::CubeRoot).unwrap();
+        let model = Model::new(mesh, vec![Box::new(cube)]).unwrap();
+        let mut conditions = Conditions::new(&model);
+        for dof in Dof::DISPLACEMENTS {
+            (0..8).for_each(|node| conditions.fix(&model, node, dof).unwrap());
+        }
+        let mut state = StateStore::new(model.elements());
+        let rest = vec![0.0; model.dofs().len()];
+        let mut stage = Stage::new(&model, conditions, &mut state, rest).unwrap();
+        let free: Vec<f64> = (0..stage.assembler().free().len())
+            .map(|i| 1e-4 * (i as f64).sin())
+            .collect();
+        let settings = DescentSettings::default();
+        let mut descent = Descent::start(&mut stage, settings, free.clone(), 0.0).unwrap();
+        let size = stage.measure(&descent.residual);
+        let far = stage.compose(&free.iter().map(|u| 1e3 * u).collect::<Vec<_>>(), 0.0);
+        let forces = EvaluationContext::new(Operator::None);
+        stage.residual(&far, 0.0, &forces).unwrap();
+        let mut log = |_: &Residual, _: f64| Ok(());
+        let target = 0.1 * size.relative;
+        let stands = descent.run(&mut stage, target, 0, &mut log).unwrap();
+        assert_eq!(stands, size);
+        let end = descent.run(&mut stage, target, 1, &mut log).unwrap();
+        assert!(end.relative <= target, "{end:?}");
+    }
 }

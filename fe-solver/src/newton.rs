@@ -52,6 +52,9 @@ impl Default for NewtonSettings {
 /// The line search halves the correction until the residual norm falls. If no tried factor reduces it the
 /// attempt ends: a worse residual is never accepted.
 ///
+/// A step has converged when its forces balance. The equation of a constraint that is not linear, g = 0, holds then as far as
+/// the last correction has brought it: the step is a point of the path, if not exactly as far along it as was asked.
+///
 /// Latching: after every correction that does not yet converge, laws latch what the trial state shows (the
 /// axes of a new crack) and keep it for the rest of the attempt. The next tangent is evaluated with it; while
 /// modified Newton-Raphson keeps its factor, so is the next residual only. A correction that converges latches

@@ -3,6 +3,8 @@
 use fe_solver::capacity::{Capacity, Verdict};
 
 use super::RunError;
+use super::judgement::Judgement;
+use super::walk::Walk;
 use crate::analysis::{Outcome, Snapshot as State};
 use crate::build::{BarKind, BarRecord, Beam, Line, SheetRecord};
 use crate::results::crack::CrackView;
@@ -18,8 +20,36 @@ use crate::spec::Specimen;
 /// Points closer than this (mm) to a plane lie in it.
 const ON: f64 = 1e-6;
 
+/// All pictures of a beam.
+pub(super) fn draw(
+    (folder, specimen, beam): (&Folder, &Specimen, &Beam),
+    walk: &Walk<'_>,
+    (setup, judgement): (&Setup, &Judgement<'_>),
+) -> Result<(), RunError> {
+    let (capacity, verdict) = (&judgement.capacity, &judgement.verdict);
+    curve(folder, specimen, setup, &walk.outcome, (capacity, verdict))?;
+    let figures = &judgement.figures;
+    let (load_kn, at_mm) = (figures.peak_load_kn, figures.deflection_at_peak_mm);
+    let title = format!("cracks at the peak, {load_kn:.1} kN at {at_mm:.2} mm");
+    let (at_peak, peak) = &judgement.peak;
+    crack(folder, specimen, beam, peak, &title)?;
+    if let Some(record) = &beam.sheets {
+        let layout = walk.recording.watch().sheet_layout();
+        let states = [(MapState::Peak, *at_peak), (MapState::End, judgement.end)];
+        sheets(
+            folder,
+            specimen,
+            (beam, record),
+            layout,
+            states,
+            (load_kn, at_mm),
+        )?;
+    }
+    Ok(())
+}
+
 /// `curve.svg` and `curve.png`.
-pub(super) fn curve(
+fn curve(
     folder: &Folder,
     specimen: &Specimen,
     setup: &Setup,
@@ -30,11 +60,13 @@ pub(super) fn curve(
         "{}; {}, {} integration, {}",
         specimen.title, setup.law, setup.integration, setup.mesh
     );
+    // From the unloaded beam on, also where the sheets were bonded later.
+    let path = [outcome.before.as_slice(), &outcome.path].concat();
     let curve = Curve {
         specimen: &specimen.name,
         title: &title,
-        path: &outcome.path,
-        capacity,
+        path: &path,
+        capacity: &capacity.behind(outcome.before.len()),
         verdict,
         test_load_kn: specimen.test.as_ref().map(|t| t.load_kn.get()),
     };
@@ -43,7 +75,7 @@ pub(super) fn curve(
 }
 
 /// `crack.svg`: the integration points next to the side face, at the peak.
-pub(super) fn crack(
+fn crack(
     folder: &Folder,
     specimen: &Specimen,
     beam: &Beam,
@@ -90,7 +122,7 @@ pub(super) fn crack(
 }
 
 /// `sheet_map.csv`, and from it `slip.svg` and `sheet.svg` at the peak (kN, mm).
-pub(super) fn sheets(
+fn sheets(
     folder: &Folder,
     specimen: &Specimen,
     (beam, record): (&Beam, &SheetRecord),

@@ -10,6 +10,7 @@ use fe_solver::newton::{NewtonRaphson, NewtonSettings, Refactor};
 use fe_solver::secant::SecantAnderson;
 use fe_solver::viscous::Viscous;
 
+use super::case::Case;
 use super::error::RunError;
 use crate::analysis::Stepping;
 use crate::build::{Beam, ModelSettings};
@@ -104,13 +105,8 @@ fn viscous(newton: NewtonSettings) -> Result<Viscous, SolverError> {
 }
 
 /// What was run, for the summary.
-pub(super) fn setup(
-    specimen: &Specimen,
-    options: &RunOptions,
-    settings: &ModelSettings,
-    beam: &Beam,
-    driver: &str,
-) -> Setup {
+pub(super) fn setup(case: &Case<'_>, beam: &Beam, driver: &str) -> Setup {
+    let (specimen, options, settings) = (case.specimen, case.options, &case.settings);
     Setup {
         specimen: specimen.name.clone(),
         preset: options::name(&settings.preset),

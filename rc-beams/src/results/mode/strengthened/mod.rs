@@ -193,7 +193,7 @@ impl fmt::Display for Bond<'_> {
         match self.ratio {
             _ if self.span.debonded.is_none() => {}
             Some(ratio) => write!(f, "; perfect bond would carry {ratio:.2} times the peak")?,
-            None => f.write_str("; peak with perfect bond not known (--counterfactual)")?,
+            None => f.write_str("; peak with perfect bond not known (without --counterfactual, or where its path ends before)")?,
         }
         match self.span.stirrups {
             0 => f.write_str("; no stirrups in the span"),
