@@ -167,23 +167,13 @@ impl Driver for NewtonRaphson {
             }
             // The predictor carries the whole increment; corrections are searched along.
             let halvings = if iterations == 0 { 0 } else { s.halvings };
-            let before = dot(&residual, &residual).sqrt();
-            let mut factor = 1.0;
-            let mut after;
-            let mut tried = 0;
-            loop {
-                let trial: Vec<f64> = (0..du.len())
-                    .map(|i| start[i] + du[i] + factor * correction[i])
-                    .collect();
-                u = stage.compose(&trial, lambda + factor * dlambda);
-                residual = stage.residual(&u, lambda + factor * dlambda, &force)?;
-                after = dot(&residual, &residual).sqrt();
-                if after < before || tried >= halvings {
-                    break;
-                }
-                tried += 1;
-                factor *= 0.5;
-            }
+            let before = norm(&residual);
+            let from: Vec<f64> = start.iter().zip(&du).map(|(u, d)| u + d).collect();
+            let along = (correction.as_slice(), dlambda);
+            let factor;
+            (factor, u, residual) =
+                search(stage, (&from, lambda), along, (before, halvings), &force)?;
+            let after = norm(&residual);
             iterations += 1;
             let size = stage.measure(&residual);
             let worse = iterations > 1 && s.halvings > 0 && after >= before;
@@ -230,4 +220,32 @@ impl Driver for NewtonRaphson {
             }
         }
     }
+}
+
+/// Halves a correction until the residual is smaller than it was `before`, so many times at most: the factor reached, the
+/// displacements there and their residual.
+fn search(
+    stage: &mut Stage<'_>,
+    (from, lambda): (&[f64], f64),
+    (correction, dlambda): (&[f64], f64),
+    (before, halvings): (f64, usize),
+    force: &EvaluationContext,
+) -> Result<(f64, Vec<f64>, Vec<f64>), SolverError> {
+    let (mut factor, mut tried) = (1.0, 0);
+    loop {
+        let moved = from.iter().zip(correction);
+        let trial: Vec<f64> = moved.map(|(u, c)| u + factor * c).collect();
+        let load = lambda + factor * dlambda;
+        let u = stage.compose(&trial, load);
+        let residual = stage.residual(&u, load, force)?;
+        if norm(&residual) < before || tried >= halvings {
+            return Ok((factor, u, residual));
+        }
+        tried += 1;
+        factor *= 0.5;
+    }
+}
+
+fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
 }

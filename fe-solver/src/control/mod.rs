@@ -3,18 +3,20 @@
 //! A step that ends in equilibrium but [creates energy](Change::creates_energy) is refused like one without convergence.
 
 mod accept;
+mod march;
 #[cfg(test)]
 mod tests;
 
 use fe_core::energy::Change;
 
+use crate::critical::Signs;
 use crate::driver::{Attempt, Driver, Request};
 use crate::error::SolverError;
 use crate::journal::Entry;
 use crate::recorder::{IterationRecord, Recorder};
 use crate::stage::Stage;
 
-use accept::Done;
+use march::{Heard, March};
 
 /// What to do when even the shortest step does not meet the criterion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -158,134 +160,105 @@ impl StepControl {
         driver: &mut dyn Driver,
         recorder: &mut dyn Recorder,
     ) -> Result<String, SolverError> {
-        let mut length = self.initial.min(self.longest);
-        let mut progress = 0.0;
-        let mut step = 1;
-        let mut attempts = 0;
-        let mut flagged = 0;
-        let mut at_most = f64::INFINITY;
-        let mut heard = Heard::default();
-        loop {
-            let remaining = self.end - progress;
-            let longest = self.longest.max(self.longest_share * progress);
-            if remaining <= 1e-9 * self.end {
-                return Ok(format!("reached the end of the stage at {}", self.end));
-            }
-            // A last sliver shorter than half a step is merged into this one, unless that has failed.
-            let this = if attempts == 0 && remaining < 1.5 * length && remaining <= longest {
-                remaining
-            } else {
-                length.min(remaining)
-            };
-            let this = this.min(at_most.max(self.shortest));
-            if let Some(entry) = recorder.recall()? {
-                length = entry.length;
+        let mut march = March::new(self);
+        while let Some(length) = march.next(self) {
+            let done = if let Some(entry) = recorder.recall()? {
+                march.length = entry.length;
                 driver.recall(&entry.memory);
-                let done = self.replay(stage, recorder, step, entry)?;
-                flagged = done.flagged(flagged);
-                let taken = done.taken;
-                length = self.next_length(length, longest, &done);
-                at_most = match done.verdict.longest_step() {
-                    Ok(longest) => longest,
-                    Err(reason) => return Ok(reason),
+                self.replay(stage, recorder, march.step, entry)?
+            } else {
+                let found = self.find(stage, driver, recorder, (&mut march, length))?;
+                let Some((attempt, signs)) = found else {
+                    stage.roll_back();
+                    stage.counters_mut().cutbacks += 1;
+                    march.length = (self.cut * length).max(self.shortest);
+                    continue;
                 };
-                progress += taken;
-                step += 1;
-                continue;
-            }
-            attempts += 1;
-            let shorter = (self.cut * this).max(self.shortest);
-            let can_shorten = 0.5 * this >= self.shortest;
-            let plan = Plan {
-                step,
-                attempt: attempts,
-                length: this,
-                last_resort: !can_shorten,
+                driver.accepted();
+                let heard = std::mem::take(&mut march.heard);
+                let entry = Entry {
+                    length: march.length,
+                    taken: length,
+                    attempts: march.attempts,
+                    attempt,
+                    base: stage.state().base_changes(),
+                    counters: *stage.counters(),
+                    check: None,
+                    iterations: heard.iterations,
+                    memory: driver.memory(),
+                    notes: heard.notes,
+                };
+                Self::accept(stage, recorder, march.step, (entry, signs))?
             };
-            let may_flag =
-                !can_shorten && self.on_failure == OnFailure::Flag && flagged < MAX_FLAGGED;
-            let attempt = self.attempt(stage, driver, (recorder, &mut heard), plan);
-            match attempt {
-                Ok(mut attempt) if attempt.converged || may_flag && is_a_state(stage, &attempt) => {
-                    let (signs, change) = match self.measure(stage, &attempt) {
-                        Ok(measured) => measured,
-                        Err(e) if can_shorten && Self::may_recover(&e, stage) => {
-                            cut_back(stage);
-                            length = shorter;
-                            continue;
-                        }
-                        Err(e) => return Err(e),
-                    };
-                    if driver.balances() && change.creates_energy() {
-                        if can_shorten {
-                            recorder.note(step, &creation(&change))?;
-                            heard.notes.push(creation(&change));
-                            stage.forget_tangent();
-                            cut_back(stage);
-                            length = shorter;
-                            continue;
-                        }
-                        if !may_flag {
-                            return Err(SolverError::CreatesEnergy {
-                                lambda: stage.lambda(),
-                                step: this,
-                                dissipated: change.dissipated(),
-                                work: change.work,
-                            });
-                        }
-                        attempt.converged = false;
-                    }
-                    driver.accepted();
-                    let entry = Entry {
-                        length,
-                        taken: this,
-                        attempts,
-                        attempt,
-                        base: stage.state().base_changes(),
-                        counters: *stage.counters(),
-                        check: None,
-                        iterations: std::mem::take(&mut heard.iterations),
-                        memory: driver.memory(),
-                        notes: std::mem::take(&mut heard.notes),
-                    };
-                    let done = Self::accept(stage, recorder, step, (entry, signs))?;
-                    flagged = done.flagged(flagged);
-                    length = self.next_length(length, longest, &done);
-                    at_most = match done.verdict.longest_step() {
-                        Ok(longest) if longest.is_nan() => {
-                            return Err(SolverError::NoNumber {
-                                what: "longest step that a recorder allows".into(),
-                                value: longest,
-                            });
-                        }
-                        Ok(longest) => longest,
-                        Err(reason) => return Ok(reason),
-                    };
-                    progress += this;
-                    step += 1;
-                    attempts = 0;
-                }
-                Ok(_) if can_shorten => {
-                    cut_back(stage);
-                    length = shorter;
-                }
-                Err(e) if can_shorten && Self::may_recover(&e, stage) => {
-                    cut_back(stage);
-                    length = shorter;
-                }
-                Ok(attempt) => {
-                    return Err(SolverError::NoConvergence {
-                        lambda: stage.lambda(),
-                        step: this,
-                        residual: attempt.residual.relative,
-                        tolerance: self.criterion,
-                        iterations: attempt.iterations,
-                        worst: stage.describe(attempt.residual.worst),
-                    });
-                }
-                Err(e) => return Err(e),
+            if let Some(reason) = march.pass(self, done)? {
+                return Ok(reason);
             }
         }
+        Ok(format!("reached the end of the stage at {}", self.end))
+    }
+
+    /// Attempts a step of this length; none where it is to be given up for a shorter one.
+    fn find(
+        &self,
+        stage: &mut Stage<'_>,
+        driver: &mut dyn Driver,
+        recorder: &mut dyn Recorder,
+        (march, length): (&mut March, f64),
+    ) -> Result<Option<(Attempt, Option<Signs>)>, SolverError> {
+        march.attempts += 1;
+        let can_shorten = 0.5 * length >= self.shortest;
+        let may_flag =
+            !can_shorten && self.on_failure == OnFailure::Flag && march.flagged < MAX_FLAGGED;
+        let plan = Plan {
+            step: march.step,
+            attempt: march.attempts,
+            length,
+            last_resort: !can_shorten,
+        };
+        let shorter = |error: SolverError, stage: &Stage<'_>| {
+            if can_shorten && Self::may_recover(&error, stage) {
+                Ok(None)
+            } else {
+                Err(error)
+            }
+        };
+        let mut attempt = match self.attempt(stage, driver, (recorder, &mut march.heard), plan) {
+            Ok(attempt) if attempt.converged || may_flag && is_a_state(stage, &attempt) => attempt,
+            Ok(_) if can_shorten => return Ok(None),
+            Ok(attempt) => {
+                return Err(SolverError::NoConvergence {
+                    lambda: stage.lambda(),
+                    step: length,
+                    residual: attempt.residual.relative,
+                    tolerance: self.criterion,
+                    iterations: attempt.iterations,
+                    worst: stage.describe(attempt.residual.worst),
+                });
+            }
+            Err(error) => return shorter(error, stage),
+        };
+        let (signs, change) = match self.measure(stage, &attempt) {
+            Ok(measured) => measured,
+            Err(error) => return shorter(error, stage),
+        };
+        if driver.balances() && change.creates_energy() {
+            if can_shorten {
+                recorder.note(march.step, &creation(&change))?;
+                march.heard.notes.push(creation(&change));
+                stage.forget_tangent();
+                return Ok(None);
+            }
+            if !may_flag {
+                return Err(SolverError::CreatesEnergy {
+                    lambda: stage.lambda(),
+                    step: length,
+                    dissipated: change.dissipated(),
+                    work: change.work,
+                });
+            }
+            attempt.converged = false;
+        }
+        Ok(Some((attempt, signs)))
     }
 
     /// Whether a shorter step may help. A model whose stiffness is singular before the first step never was held.
@@ -336,26 +309,6 @@ impl StepControl {
         attempt.check(stage)?;
         Ok(attempt)
     }
-
-    /// Length aimed at after an accepted step.
-    fn next_length(&self, length: f64, longest: f64, done: &Done) -> f64 {
-        let Some(iterations) = done.iterations else {
-            return length;
-        };
-        let wanted = self.desired as f64 / iterations.max(1) as f64;
-        let growth = if done.converged { self.growth } else { 1.0 };
-        // A snap takes its iterations however short the step that meets it.
-        let shrinkage = if done.held { 1.0 } else { self.shrinkage };
-        let factor = wanted.sqrt().clamp(shrinkage.min(growth), growth);
-        let next = done.taken * factor;
-        // A step that another limit made short says nothing about the next one.
-        let next = if factor > 1.0 {
-            next.max(length)
-        } else {
-            next.min(length)
-        };
-        next.min(longest).max(self.shortest)
-    }
 }
 
 /// Whether an attempt that misses the criterion ends in a state of the model, and has not diverged: what breaks off may go
@@ -368,12 +321,6 @@ fn is_a_state(stage: &Stage<'_>, attempt: &Attempt) -> bool {
         && (extent == 0.0 || ways.all(|(to, from)| (to - from).abs() <= extent))
 }
 
-/// Gives an attempt up for a shorter step.
-fn cut_back(stage: &mut Stage<'_>) {
-    stage.roll_back();
-    stage.counters_mut().cutbacks += 1;
-}
-
 /// What is said of a step that creates energy.
 fn creation(change: &Change) -> String {
     format!(
@@ -381,11 +328,4 @@ fn creation(change: &Change) -> String {
         change.dissipated(),
         change.work
     )
-}
-
-/// What recorders have been told since the last accepted step.
-#[derive(Debug, Default)]
-struct Heard {
-    iterations: Vec<IterationRecord>,
-    notes: Vec<String>,
 }
