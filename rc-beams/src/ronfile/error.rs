@@ -42,7 +42,9 @@ impl RonError {
             ("", begin..begin + 2, Words::of(&error.code))
         } else if text[place.start..].trim().is_empty() && expects_more(&error.code) {
             ("", place, Words::of(&Error::Eof))
-        } else if let Some((place, words)) = foreign(text, place.start, &error.code) {
+        } else if let Some((place, words)) = foreign(text, place.start, &error.code)
+            .or_else(|| lettered_number(text, &place, &error.code))
+        {
             ("", place, words)
         } else {
             mistyped_number(text, place.start)
@@ -220,7 +222,27 @@ fn foreign(text: &str, at: usize, error: &Error) -> Option<(Range<usize>, Words)
     Some((place, Words::new(what, "this", Some(help.into()))))
 }
 
-/// Recognises a number whose tail the parser stumbled over at `at`: a decimal comma, a unit, or a
+/// Recognises a value at `place` that was refused before the letters behind it were read: 27e3MPa, 0x1b. Gives its place
+/// and the words.
+fn lettered_number(
+    text: &str,
+    place: &Range<usize>,
+    error: &Error,
+) -> Option<(Range<usize>, Words)> {
+    let tail = text.get(place.end..)?;
+    let rest = tail.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_');
+    let digits = text
+        .get(place.clone())?
+        .ends_with(|c: char| c.is_ascii_digit());
+    if !matches!(error, Error::Message(_)) || !digits || rest.len() == tail.len() {
+        return None;
+    }
+    let help = "write digits with a decimal point: the name of the field states the unit";
+    let words = Words::new("a number with letters in it", "this", Some(help.into()));
+    Some((place.start..text.len() - rest.len(), words))
+}
+
+/// Recognises a number whose tail the parser stumbled over at `at`: a decimal comma, a unit, a second number, or a
 /// fraction where a whole number belongs. Gives the name of its field, its place and the words.
 fn mistyped_number(text: &str, at: usize) -> Option<(&str, Range<usize>, Words)> {
     let (before, after) = text.split_at_checked(at)?;
@@ -242,6 +264,9 @@ fn mistyped_number(text: &str, at: usize) -> Option<(&str, Range<usize>, Words)>
     } else if first.is_ascii_alphabetic() {
         let help = format!("write {number} alone: the name of the field states the unit");
         Words::new("a number with a unit behind it", "this number", Some(help))
+    } else if before.len() < at {
+        let help = format!("write {number} or {tail}");
+        Words::new("two numbers where one belongs", "these", Some(help))
     } else {
         Words::new("a fraction; allowed: whole numbers", "this number", None)
     };

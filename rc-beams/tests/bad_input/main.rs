@@ -190,7 +190,31 @@ const CASES: &[Case] = &[
             "in t/m3? Then write 2540",
         ],
     ),
-    // Decimal comma, unit behind a number, fraction for a count.
+    // Decimal comma, unit behind a number, letters in it, two for one, fraction for a count.
+    (
+        "density_kg_m3: 2540",
+        "density_kg_m3: 254e4kg",
+        "254e4kg",
+        &[
+            "concrete.density_kg_m3: a number with letters in it",
+            "the name of the field states the unit",
+        ],
+    ),
+    (
+        "density_kg_m3: 2540",
+        "density_kg_m3: 0x9ec",
+        "0x9ec",
+        &["concrete.density_kg_m3: a number with letters in it"],
+    ),
+    (
+        "length_mm: 3050,",
+        "length_mm: 3050 5,",
+        "3050 5",
+        &[
+            "beam.length_mm: two numbers where one belongs",
+            "write 3050 or 5",
+        ],
+    ),
     (
         "length_mm: 3050,",
         "length_mm: 3050,0,",
