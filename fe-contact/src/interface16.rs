@@ -228,18 +228,17 @@ impl Element for Interface16 {
         let law = self.law.as_ref();
         let point_ctx = points::context(self.size, ctx);
         let nodes = jumps(u);
+        // Of the upper face; the lower one has the opposite.
+        let mut forces = [[0.0; 3]; 8];
         // Sums of w J N_a N_b D, of which the blocks of K are copies.
         let mut sums = (ctx.operator != Operator::None).then_some([[[[0.0; 3]; 3]; 8]; 8]);
         for (p, point) in self.points.iter().enumerate() {
             let states = (committed, &mut *trial);
             let response = points::answer(law, (p, &point.jump(&nodes)), states, &point_ctx)?;
             let traction = point.axes.tr_mul(&response.stress) * point.area;
-            let (lower, upper) = out.force.split_at_mut(N / 2);
-            let pairs = lower.chunks_exact_mut(3).zip(upper.chunks_exact_mut(3));
-            for ((lower, upper), n) in pairs.zip(point.values) {
+            for (force, n) in forces.iter_mut().zip(point.values) {
                 for k in 0..3 {
-                    lower[k] -= n * traction[k];
-                    upper[k] += n * traction[k];
+                    force[k] += n * traction[k];
                 }
             }
             let Some(sums) = &mut sums else {
@@ -256,6 +255,11 @@ impl Element for Interface16 {
                     }
                 }
             }
+        }
+        let (lower, upper) = out.force.split_at_mut(N / 2);
+        for (k, force) in forces.as_flattened().iter().enumerate() {
+            lower[k] -= force;
+            upper[k] += force;
         }
         if let Some(sums) = sums {
             spread(&sums, out.stiffness);
