@@ -170,3 +170,28 @@ fn conforms() {
     drift.tell();
     created.tell();
 }
+
+/// With histories that lag behind, as under viscosity: tangent against differences to 1e-6, whatever share of its growth a history
+/// takes up, and the answer of a frozen one.
+#[test]
+fn conforms_with_histories_that_lag() {
+    let mut tangent = Worst::new("cracking law that lags, tangent against differences", 1e-6);
+    for relaxation in [0.0, 0.3, 0.7] {
+        for amplitude in [1e-3, 1e-2] {
+            let check = MaterialCheck {
+                paths: 500,
+                steps: 10,
+                context: PointContext {
+                    relaxation,
+                    ..MaterialCheck::new(amplitude).context
+                },
+                // Such a history still grows in a step without increment.
+                drift_tolerance: 1.0,
+                ..MaterialCheck::new(amplitude)
+            };
+            let report = check_material(&build(parameters()), &check).unwrap();
+            tangent.see(report.worst_tangent, (relaxation, amplitude));
+        }
+    }
+    tangent.tell();
+}
