@@ -39,7 +39,7 @@ impl Picture for CrackView<'_> {
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<'_, DB>) -> Drawn<DB> {
-        draw_heading(area, self.specimen, self.title, &[])?;
+        draw_heading(area, self.specimen, self.title, "")?;
         let frame = Frame::of(self.elements);
         frame.draw_elements(area, self.elements)?;
         self.draw_crushing(area, &frame)?;

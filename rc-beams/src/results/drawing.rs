@@ -164,7 +164,8 @@ pub fn wrap(text: &str, length: usize) -> Vec<String> {
     lines
 }
 
-/// Name and title in one row at the top left, further rows in small letters below.
+/// Name and title in one row at the top left, `more` in small letters below, and before it a title that is too long for the row.
+/// Returns where the next row would be (drawing units from the top).
 ///
 /// # Errors
 ///
@@ -173,17 +174,34 @@ pub fn draw_heading<DB: DrawingBackend>(
     area: &Area<'_, DB>,
     name: &str,
     title: &str,
-    rows: &[String],
-) -> Drawn<DB> {
+    more: &str,
+) -> Result<i32, DrawingAreaErrorKind<DB::ErrorType>> {
     let left = units(24.0);
-    let large = text(INK, 22.0);
-    let beside = left + area.estimate_text_size(name, &large)?.0.cast_signed() + units(12.0);
+    let width = area.dim_in_pixel().0.cast_signed() - 2 * left;
+    let wide = |text: &str, style: &TextStyle<'_>| {
+        Ok::<_, DrawingAreaErrorKind<_>>(area.estimate_text_size(text, style)?.0.cast_signed())
+    };
+    let (large, grey, small) = (text(INK, 22.0), text(GREY, 14.0), text(GREY, 13.0));
+    let beside = wide(name, &large)? + units(12.0);
     area.draw(&Text::new(name, (left, units(26.0)), large))?;
-    area.draw(&Text::new(title, (beside, units(28.0)), text(GREY, 14.0)))?;
-    let lines = (0..).map(|i| units(52.0 + 17.0 * f64::from(i)));
-    rows.iter()
-        .zip(lines)
-        .try_for_each(|(row, y)| area.draw(&Text::new(row.as_str(), (left, y), text(GREY, 13.0))))
+    let mut below = vec![more];
+    if beside + wide(title, &grey)? <= width {
+        area.draw(&Text::new(title, (left + beside, units(28.0)), grey))?;
+    } else {
+        below.insert(0, title);
+    }
+    let mut rows = Vec::new();
+    for text in below {
+        let share = f64::from(width) / f64::from(wide(text, &small)?.max(1));
+        let in_a_row = share * text.chars().count() as f64;
+        rows.extend(wrap(text, in_a_row as usize));
+    }
+    let mut y = units(52.0);
+    for row in &rows {
+        area.draw(&Text::new(row.as_str(), (left, y), small.clone()))?;
+        y += units(17.0);
+    }
+    Ok(y)
 }
 
 fn use_font() -> Result<(), ResultsError> {
@@ -255,6 +273,20 @@ mod tests {
         fine[0] = 100; // first unit of the first row
         fine[3 * 4 + 3] = 60; // second unit of the second row
         assert_eq!(average(&fine, 4), [40, 0, 0, 0, 0, 0]);
+    }
+
+    /// What does not fit beside the name stands below it, in as many rows as it takes.
+    #[test]
+    fn long_titles_move_below_the_name() {
+        use_font().unwrap();
+        let mut svg = String::new();
+        let area = SVGBackend::with_string(&mut svg, (860 * UNITS, 560 * UNITS));
+        let area = area.into_drawing_area();
+        let next = |title: &str, more| draw_heading(&area, "beam", title, more).unwrap();
+        assert_eq!(next("short", ""), units(52.0));
+        assert_eq!(next("short", "one row"), units(69.0));
+        assert_eq!(next(&"long ".repeat(27), ""), units(69.0));
+        assert_eq!(next(&"long ".repeat(45), "one row"), units(103.0));
     }
 
     #[test]

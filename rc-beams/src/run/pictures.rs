@@ -67,6 +67,7 @@ fn curve(
         title: &title,
         path: &path,
         capacity: &capacity.behind(outcome.before.len()),
+        bonded: outcome.before.len().checked_sub(1),
         verdict,
         test_load_kn: specimen.test.as_ref().map(|t| t.load_kn.get()),
     };

@@ -42,7 +42,7 @@ impl Picture for GroupCurves<'_> {
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<'_, DB>) -> Drawn<DB> {
         let title = "circles: peaks; strokes at the right: loads of the tests";
-        draw_heading(area, self.name, title, &[])?;
+        draw_heading(area, self.name, title, "")?;
         let ends = self.extent();
         let mut chart = axes(area, (units(52.0), units(LEGEND + 20.0)), ends)?;
         for (each, colour) in self.lines.iter().zip(COLOURS.into_iter().cycle()) {

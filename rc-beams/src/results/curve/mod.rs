@@ -16,7 +16,7 @@ use plotters::style::{Color, WHITE};
 
 use self::axes::{Chart, axes, span};
 use self::legend::draw_legend;
-use super::drawing::{Area, Drawn, Picture, draw_heading, line, placed, text, units, wrap};
+use super::drawing::{Area, Drawn, Picture, draw_heading, line, placed, text, units};
 use super::palette::{BLUE, GREEN, ORANGE, VERMILLION};
 
 /// Load-deflection curve of a run, in mm and kN.
@@ -32,6 +32,8 @@ pub struct Curve<'a> {
     pub capacity: &'a Capacity,
     /// Trust.
     pub verdict: &'a Verdict,
+    /// Last point before sheets were bonded under load.
+    pub bonded: Option<usize>,
     /// Largest load of the laboratory test (kN), if known.
     pub test_load_kn: Option<f64>,
 }
@@ -43,9 +45,9 @@ impl Picture for Curve<'_> {
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<'_, DB>) -> Drawn<DB> {
         let trust = format!("trust {}: {}", self.verdict.trust, self.verdict.reason);
-        draw_heading(area, self.specimen, self.title, &wrap(&trust, 118))?;
+        let below = draw_heading(area, self.specimen, self.title, &trust)?;
         let ends = self.extent();
-        let mut chart = axes(area, (units(86.0), units(28.0)), ends)?;
+        let mut chart = axes(area, (below, units(28.0)), ends)?;
         // A load-deflection curve seldom goes to the lower right; where it does, it crosses the legend.
         draw_legend(area, chart.backend_coord(&(ends.0[1], 0.0)), self.path)?;
         self.draw_test(&mut chart)?;
@@ -109,7 +111,7 @@ impl Curve<'_> {
         Ok(())
     }
 
-    /// Peak and first drop with their values.
+    /// Peak and first drop with their values, and where sheets were bonded.
     fn draw_marks<DB: DrawingBackend>(
         &self,
         chart: &Chart<'_, DB>,
@@ -119,6 +121,13 @@ impl Curve<'_> {
             return Ok(());
         };
         let spot = |p: &PathPoint| chart.backend_coord(&(p.deflection, p.load));
+        if let Some(point) = self.bonded.and_then(|i| self.path.get(i)) {
+            let (x, y) = spot(point);
+            area.draw(&Circle::new((x, y), units(4.0), BLUE.filled()))?;
+            let style = placed(&text(BLUE, 13.0), HPos::Left, VPos::Top);
+            let at = (x + units(9.0), y + units(2.0));
+            area.draw(&Text::new("sheets bonded", at, style))?;
+        }
         let value = |p: &PathPoint| format!("{:.1} kN at {:.2} mm", p.load, p.deflection);
         let first = self
             .capacity
@@ -192,6 +201,7 @@ mod tests {
             path,
             capacity: &capacity,
             verdict: &Verdict::of(path, &capacity),
+            bonded: (path.len() > 3).then_some(1),
             test_load_kn,
         };
         curve.to_svg().unwrap()
@@ -204,6 +214,7 @@ mod tests {
             "A-SO3-1",
             "peak 149.2 kN at 1.50 mm",
             "first drop 100.0 kN at 0.50 mm",
+            "sheets bonded",
             "test 151.0 kN",
             "trust high: every step",
             "deflection [mm]",
@@ -220,7 +231,7 @@ mod tests {
         path[2].flagged = true;
         path[2].work_conjugate_load = -1400.0;
         let svg = svg(&path, None);
-        assert!(!svg.contains("test "));
+        assert!(!svg.contains("test ") && !svg.contains("bonded"));
         assert!(!svg.contains("first drop"), "the peak is the first drop");
         assert!(svg.contains("jump, no static equilibrium"));
         assert!(svg.contains("step that misses the criterion"));

@@ -101,7 +101,7 @@ impl Picture for SheetView<'_> {
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<'_, DB>) -> Drawn<DB> {
-        draw_heading(area, self.specimen, self.title, &[])?;
+        draw_heading(area, self.specimen, self.title, "")?;
         let cells = self.cells();
         let outlines = self.outlines(&cells);
         let frame = self.frame(&outlines);
