@@ -16,3 +16,4 @@ cp "$results"/report-*.svg "$results/report.csv" docs/beams/
 for picture in slip crack; do
     cp "$results/A-SO3-3/$picture.svg" "docs/beams/A-SO3-3-$picture.svg"
 done
+cp "$results/A-SO3-1/curve.svg" docs/A-SO3-1.svg
