@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{Method, Outcome};
 
-const NAME: f64 = 545.0;
+const NAME: f64 = 650.0;
 const CELL: [f64; 2] = [64.0, 26.0];
 const HEAD: f64 = 150.0;
 
