@@ -5,7 +5,7 @@ use std::fmt::Write;
 const WIDTH: f64 = 460.0;
 const HEIGHT: f64 = 380.0;
 const LEFT: f64 = 55.0;
-const RIGHT: f64 = 12.0;
+const RIGHT: f64 = 20.0;
 const TOP: f64 = 40.0;
 const BOTTOM: f64 = 48.0;
 const CAPTION: f64 = 34.0;
@@ -32,8 +32,10 @@ pub struct Axis {
     pub name: String,
     /// First and last value.
     pub ends: [f64; 2],
-    /// Distance of its ticks.
+    /// Distance of its ticks; on one by decades the factor between them.
     pub tick: f64,
+    /// Whether equal ratios are equally far apart.
+    decades: bool,
 }
 
 impl Axis {
@@ -48,25 +50,44 @@ impl Axis {
             name: name.into(),
             ends,
             tick,
+            decades: false,
+        }
+    }
+
+    /// A logarithmic axis between powers of ten.
+    pub fn decades(name: &str, ends: [f64; 2]) -> Self {
+        Self {
+            decades: true,
+            ..Self::new(name, ends, 10.0)
         }
     }
 
     /// Where a value is, from 0 at the first to 1 at the last.
     fn share(&self, value: f64) -> f64 {
         let [first, last] = self.ends;
-        (value - first) / (last - first)
+        if self.decades {
+            (value / first).log10() / (last / first).log10()
+        } else {
+            (value - first) / (last - first)
+        }
     }
 
     /// Values with a tick, and their text.
-    fn ticks(&self) -> impl Iterator<Item = (f64, String)> {
+    fn ticks(&self) -> Vec<(f64, String)> {
         let [first, last] = self.ends;
+        if self.decades {
+            let values = std::iter::successors(Some(first), |v| Some(v * self.tick));
+            let values = values.take_while(|v| *v < 1.1 * last);
+            return values.map(|v| (v, format!("{v:.0}"))).collect();
+        }
         let decimals = (-self.tick.log10()).ceil().max(1.0) as usize;
         let count = ((last - first) / self.tick).round() as usize;
-        (0..=count).map(move |i| {
+        let ticks = (0..=count).map(|i| {
             // Added to zero, no zero is negative.
             let value = ((first / self.tick).round() + i as f64) * self.tick + 0.0;
             (value, format!("{value:.decimals$}"))
-        })
+        });
+        ticks.collect()
     }
 }
 
@@ -138,7 +159,9 @@ impl Chart {
             self.y.name
         )?;
         for (row, series) in self.series.iter().enumerate() {
-            let colour = COLOURS[series.style % COLOURS.len()];
+            // Each shape comes in another colour every time round.
+            let round = series.style / COLOURS.len();
+            let colour = COLOURS[(series.style + round) % COLOURS.len()];
             out.push_str(r#"<path d=""#);
             for (i, &point) in series.line.iter().enumerate() {
                 let [x, y] = self.place(point);
